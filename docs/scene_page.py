@@ -50,7 +50,7 @@ A scene is a TOML file: the device, the inputs over time, the length of the run,
 
 ```sh
 slider-resonator scenes --template > my_step.toml        # a commented scene to start from
-slider-resonator scenes --check my_step.toml             # can it be compared? nothing is run
+slider-resonator scenes --check my_step.toml             # is it valid? nothing is run
 slider-resonator validate --scene my_step.toml           # run it and compare
 slider-resonator scenes --show table_1                   # the text of a built-in scene
 slider-resonator run my_steps.toml#my_fast_step          # one scene of a file of several

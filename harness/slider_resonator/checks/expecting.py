@@ -13,7 +13,7 @@ from slider_resonator.checks.period_means import (
     stick_fractions,
 )
 from slider_resonator.checks.reference_side import ReferenceSide
-from slider_resonator.errors import HarnessError, SceneError, explained
+from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import LocalProcesses
 from slider_resonator.scenes.scene import Scene, ScenePoint
@@ -37,19 +37,6 @@ def expected_value(expect: ExpectTable, references: ReferenceSide) -> Any:
     except (ValueError, RuntimeError, ModuleNotFoundError) as error:
         where = f"{references.scene.source}: {expect.quantity}"
         raise SceneError(f"{where} cannot be compared: {error}") from error
-
-
-def check_references(scene: Scene) -> None:
-    """Raise a SceneError of `expected_value` that is known without a run."""
-    references = ReferenceSide(scene)
-    for expect in scene.expect:
-        if expect.reference == "closed_form":
-            expected_value(expect, references)
-        elif expect.reference in RESOLVED and (
-            "bristle_state" in EXPECTED[expect.quantity] or expect.quantity == "slow_displacement"
-        ):
-            with explained(f"{scene.source}: {expect.quantity} cannot be compared: "):
-                references.by(expect.reference)
 
 
 def _resolved(value: Expected, averaged: Expected | None = None) -> Mapping[str, Expected]:

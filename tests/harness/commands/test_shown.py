@@ -58,39 +58,6 @@ def test_the_template_is_a_scene(tmp_path: Path) -> None:
     assert call("scenes", "--check", tmp_path).stdout == f"{path}: valid, 2 checks\n"
 
 
-EXPECT = '[[expect]]\nquantity = "position"\nreference = "{}"\nrelative = 1e-8\nwhy = "x"\n'
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("", "scene mine expects nothing: [[expect]] is missing"),
-        (
-            EXPECT.format("located_events"),
-            "position cannot be compared: friction_law = 1: located_events is for 0",
-        ),
-        (
-            EXPECT.format("closed_form").replace("position", "steady_velocity"),
-            "steady_velocity cannot be compared: frequency_ratio = 2.0: the closed form "
-            "allows only 1",
-        ),
-    ],
-)
-def test_a_check_says_what_is_known_without_a_run(
-    tmp_path: Path, native_fmu: Path, text: str, said: str
-) -> None:
-    head = 'name = "mine"\ntitle = "x"\ndevice = { friction_law = 1 }\n'
-    run = "[inputs]\nfrequency_ratio = 2\n[run]\ndrive_periods = 2\nsteps_per_period = 8\n"
-    path = tmp_path / "mine.toml"
-    path.write_text(head + run + text)
-    assert refused("scenes", "--check", path) == f"error: {path}: {said}\n"
-    assert f"{path}: {said}\n" in refused("validate", native_fmu, "--scene", path)
-    path.write_text(head + run + "[need]\nposition = { rel = 0.1 }\n")
-    assert call("scenes", "--check", path).exit_code == 0, "for choose"
-    path.write_text(head + run + EXPECT.format("bristle_state"))
-    assert call("scenes", "--check", path).stdout == f"{path}: valid, 1 check\n"
-
-
 def test_the_schema_is_printed() -> None:
     assert json.loads(call("scenes", "--schema").stdout) == scene_schema()
     assert "--json does not go with --check" in refused("scenes", "--check", "table_1", "--json")
