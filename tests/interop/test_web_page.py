@@ -275,11 +275,12 @@ def saved(browser: Chrome, folder: Path, button: WebElement) -> Path:
     )
     button.click()
 
-    def is_there(_: Any) -> bool:
-        return any(path.suffix in (".toml", ".csv") for path in folder.iterdir())
+    def finished(_: Any) -> Path | None:
+        """The file alone: the browser has one of another name beside it for a moment."""
+        path, *others = [*folder.iterdir()] or [folder]
+        return path if path.suffix in (".toml", ".csv") and not others else None
 
-    WebDriverWait(browser, SECONDS, poll_frequency=0.02).until(is_there)
-    (path,) = folder.iterdir()
+    path: Path = WebDriverWait(browser, SECONDS, poll_frequency=0.02).until(finished)
     return path
 
 
