@@ -8,8 +8,8 @@
 /* Change of an unknown by which derivatives are taken. */
 #define BESIDE 1e-6
 
-/* Largest change of an unknown in an iteration, and the change at which the iteration ends: the
- * derivatives err by about BESIDE, so that the next change would be rounding. Number of iterations. */
+/* Largest change of an unknown in an iteration, and the change at which the iteration ends: the derivatives err by about
+ * BESIDE, so that the next change would be rounding. Number of iterations. */
 #define MAX_CHANGE 0.2
 #define CONVERGED 1e-7
 enum { MAX_ITERATIONS = 24 };

@@ -205,10 +205,9 @@ def run_cases(
 ) -> StressResult:
     """Run and judge the cases that apply; FmuError when none does or the FMU cannot be run at all.
 
-    `chosen` are these, where they are known.
-    A crash or a missed `time_limit` (s) fails its case only. An FMU without fault gets up to `jobs`
-    processes. `keep` is called with what there is when the run is interrupted or stopped by an
-    error.
+    `chosen` are those that apply, for a caller that has them from `applicable`. A crash or a missed
+    `time_limit` (s) fails its case only. An FMU without fault gets up to `jobs` processes. `keep`
+    is called with what there is when the run is interrupted or stopped by an error.
     """
     began = time.perf_counter()
     verdicts: list[Verdict] = []
