@@ -37,7 +37,7 @@ from studies.mutants.runs import run_changes, run_mutants
 from studies.mutants.verdict import MutationRun
 
 MIN_RATE = 0.95
-"""Share of the mutants that change a result that must be rejected for a pass."""
+"""Share of the mutants that make a result worse that must be rejected for a pass."""
 
 MIN_NATIVE_RATE = 0.97
 """Share of the hand-written faults that must be rejected for a pass."""
@@ -112,16 +112,16 @@ def mutants_command(
     Each mutant is a copy of the Python FMU with one fault: a wrong operator, constant, sign,
     condition, statement or unit. It runs on the scenes in a process of its own, those first that
     rejected others of the same file, then the cheapest, until a check fails; a crash or a hang
-    counts as rejected. What passes all is equivalent if no result differs from the original's by
-    more than a hundredth of what its check allows; otherwise it survives. Without FMU: the Python
-    one in dist.
+    counts as rejected. What passes all is equivalent if no result is further off its reference than
+    the original's by more than a hundredth of what its check allows; otherwise it survives. Without
+    FMU: the Python one in dist.
 
     With --native a C compiler of this machine builds copies of the native FMU from its sources,
     each with one fault written by hand, or with a harmless change that must pass.
 
-    Exit code: 0 when at least 95 % of the mutants that change a result are rejected, with --native
-    97 % of the faults and no harmless variant; 1 when fewer are, 2 when there
-    is nothing to try or the unchanged FMU is rejected.
+    Exit code: 0 when at least 95 % of the mutants that make a result worse are rejected, with
+    --native 97 % of the faults and no harmless variant; 1 when fewer are, 2 when there is nothing
+    to try or the unchanged FMU is rejected.
 
     \b
     Examples:

@@ -48,8 +48,9 @@ def judge_variants(
             tried = trial(fmu, first, judging.time_limit, stopped)
             fmu.unlink()
             if tried.rejection is None:
-                status = SURVIVED if tried.differs else EQUIVALENT
-                return Verdict(variant, status, reason=STATUSES[status])
+                status = SURVIVED if tried.worse else EQUIVALENT
+                reason = ": ".join(filter(None, (STATUSES[status], tried.worse)))
+                return Verdict(variant, status, reason=reason)
             rejecting[variant.file, tried.rejection.scene] += 1
             return Verdict(variant, REJECTED, *astuple(tried.rejection))
 

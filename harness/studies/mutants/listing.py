@@ -37,14 +37,14 @@ def print_run(console: Console, run: MutationRun[Variant]) -> None:
 def summary(run: MutationRun[Variant]) -> str:
     """Return the result in a sentence."""
     counts = run.counts
-    changing = counts["rejected"] + counts["survived"]
-    rate = "none changes a result" if run.rate is None else f"{run.rate:.2%}"
+    visible = counts["rejected"] + counts["survived"]
+    rate = "none makes a result worse" if run.rate is None else f"{run.rate:.2%}"
     harmless = ""
     if run.harmless:
         harmless = f"; rejected {len(run.false_alarms)} of {len(run.harmless)} harmless variants"
     return (
-        f"{run.fmu}: rejected {counts['rejected']} of the {changing} faults that change a result: "
-        f"{rate} ({len(run.verdicts)} tried of {run.made}, {run.wall_time:.0f} s){harmless}"
+        f"{run.fmu}: rejected {counts['rejected']} of the {visible} faults that make a result "
+        f"worse: {rate} ({len(run.verdicts)} tried of {run.made}, {run.wall_time:.0f} s){harmless}"
     )
 
 

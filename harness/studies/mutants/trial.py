@@ -15,7 +15,7 @@ from slider_resonator.fmu.isolation.messages import Outcome
 from slider_resonator.scenes.scene import ScenePoint
 
 NEGLIGIBLE = 0.01
-"""Change of a result, as a share of what its check allows, that counts as none."""
+"""By how much a result may be further off, as a share of what its check allows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +44,10 @@ class Rejection:
 
 @dataclass(frozen=True)
 class Tried:
-    """The rejection of an FMU, if any, and whether it `differs` from the original before."""
+    """The rejection of an FMU, if any, and the first result that is `worse` than the original's."""
 
     rejection: Rejection | None
-    differs: bool = False
+    worse: str = ""
 
 
 def trial(
@@ -58,7 +58,7 @@ def trial(
     Where the FMU crashes, hangs or refuses, that is a rejection as well. Ends when `stopped` is
     set, with a result that says nothing.
     """
-    differs = False
+    worse = ""
     with closing(measure_points(fmu, points, measure_all, time_limit)) as outcomes:
         for point, outcome in outcomes:
             if stopped.is_set():
@@ -66,10 +66,10 @@ def trial(
             rejection = not_run(point, outcome)
             if rejection is None and point is not None:
                 rejection = first_failure(point, outcome.value)
-                differs = differs or changes_a_result(point, outcome.value)
+                worse = worse or worse_result(point, outcome.value)
             if rejection is not None:
-                return Tried(rejection, differs)
-    return Tried(None, differs)
+                return Tried(rejection, worse)
+    return Tried(None, worse)
 
 
 def not_run(point: BenchPoint | None, outcome: Outcome) -> Rejection | None:
@@ -94,17 +94,26 @@ def point_name(point: ScenePoint) -> str:
     return f"{point.scene.name}{place(point.at, ' at ')}"
 
 
-def changes_a_result(point: BenchPoint, measured: Sequence[Measurement]) -> bool:
-    """Whether a measurement differs from the original's by more than is negligible."""
-    for expect, got, original in zip(point.scene.expect, measured, point.original, strict=True):
+def worse_result(point: BenchPoint, measured: Sequence[Measurement]) -> str:
+    """Return the first result that is further off than the original's, "" where none is.
+
+    Off its reference, that is; or off the original's where any result below or above a bound will
+    do. What only one of them has counts, too.
+    """
+    results = zip(point.scene.expect, measured, point.original, point.expected, strict=True)
+    for expect, got, original, expected in results:
+        name = f"{expect.quantity} of {point_name(point)}"
         if got.value is None or original.value is None:
             if got.value is not original.value:
-                return True
+                return name
             continue
-        comparison = replace(Comparison.of(expect), against="original")
+        comparison = Comparison.of(expect)
         bound = expect.at_least if expect.at_most is None else expect.at_most
-        if bound is not None:  # which allows a result to be anywhere below or above it
-            comparison = replace(comparison, absolute=abs(bound))
-        if compare(comparison, got, original.value, point).severity > NEGLIGIBLE:
-            return True
-    return False
+        if bound is None:
+            before = compare(comparison, original, expected, point).severity
+        else:
+            before, expected = 0.0, original.value
+            comparison = replace(comparison, against="original", absolute=abs(bound))
+        if compare(comparison, got, expected, point).severity > before + NEGLIGIBLE:
+            return name
+    return ""

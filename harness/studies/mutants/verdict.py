@@ -14,8 +14,8 @@ EQUIVALENT = "equivalent"
 
 STATUSES: Mapping[str, str] = {
     REJECTED: "by a scene: a check fails, or it cannot be run",
-    SURVIVED: "passes every scene, though results change",
-    EQUIVALENT: "no result changes by more than a hundredth of what its check allows",
+    SURVIVED: "passes every scene, though results are worse",
+    EQUIVALENT: "no result is further off by more than a hundredth of what its check allows",
 }
 """Status of a variant to its meaning."""
 
@@ -71,7 +71,7 @@ class MutationRun(Generic[Variant]):
 
     @property
     def rate(self) -> float | None:
-        """Rejected variants as a share of those that change a result; None without any."""
+        """Rejected variants as a share of those that make a result worse; None without any."""
         rejected, survived = self.counts[REJECTED], self.counts[SURVIVED]
         return rejected / (rejected + survived) if rejected + survived else None
 

@@ -17,7 +17,7 @@ from studies.mutants.enumerate_source import source_mutants
 from studies.mutants.listing import print_run, summary
 from studies.mutants.mutant import KINDS, Mutant
 from studies.mutants.runs import run_mutants
-from studies.mutants.trial import BenchPoint, changes_a_result
+from studies.mutants.trial import BenchPoint, worse_result
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
 from tests.harness import faulty_fmus
 from tests.harness.golden import screen
@@ -169,19 +169,39 @@ expect = [{ quantity = "slow_motion_error", at_most = 1e-6, why = "a bound" }]
 """
 
 
-@pytest.mark.parametrize(("found", "status"), [(2.0e-7, False), (2.2e-7, True)])
+@pytest.mark.parametrize(("found", "worse"), [(2.0e-7, False), (2.2e-7, True), (1.7e-7, True)])
 def test_a_result_with_a_bound_may_change_by_a_share_of_that(
-    tmp_path: Path, found: float, status: bool
+    tmp_path: Path, found: float, worse: bool
 ) -> None:
     (tmp_path / "bounded.toml").write_text(BOUNDED)
     (point,) = read_scene(tmp_path / "bounded.toml").points()
     bench = BenchPoint(point.scene, point.at, (1e-6,), (Measurement(1.95e-7),))
-    assert changes_a_result(bench, [Measurement(found)]) is status
+    assert bool(worse_result(bench, [Measurement(found)])) is worse
 
 
-def test_the_rate_counts_only_what_changes_a_result(run: MutationRun[Mutant]) -> None:
+REFERRED = """
+name = "referred"
+title = "A velocity with a reference"
+run = { stop_time = 0.01, step_size = 0.01 }
+expect = [{ quantity = "predicted_velocity", value = 0.1, absolute = 0.01, why = "known" }]
+"""
+
+
+@pytest.mark.parametrize(
+    ("found", "worse"), [(0.1041, ""), (0.0959, ""), (0.1, ""), (0.1043, "predicted_velocity")]
+)
+def test_a_result_counts_as_worse_that_is_further_off_its_reference(
+    tmp_path: Path, found: float, worse: str
+) -> None:
+    (tmp_path / "referred.toml").write_text(REFERRED)
+    (point,) = read_scene(tmp_path / "referred.toml").points()
+    bench = BenchPoint(point.scene, point.at, (0.1,), (Measurement(0.1041),))
+    assert worse_result(bench, [Measurement(found)]) == (f"{worse} of referred" if worse else "")
+
+
+def test_the_rate_counts_only_what_worse_result(run: MutationRun[Mutant]) -> None:
     assert run.rate == 0.75
-    assert "rejected 3 of the 4 faults that change a result: 75.00%" in summary(run)
+    assert "rejected 3 of the 4 faults that make a result worse: 75.00%" in summary(run)
     assert MutationRun[Mutant]("my.fmu", 1, (), 0.0).rate is None
     assert run.tally("file")["a.py"] == run.counts
     assert run.rejections() == [("stuck: velocity", 3)]
