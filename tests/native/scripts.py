@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.stressing.axes import axis_cases
+from slider_resonator.stressing.case import Case
 from tests.problems import PROBLEMS
 
 GET = " ".join(["get", *(str(VALUE_REFERENCE[v.name]) for v in VARIABLES if v.start is None)])
@@ -23,18 +24,27 @@ def devices() -> dict[str, dict[str, float]]:
     return named
 
 
+def setting(values: Mapping[str, float]) -> list[str]:
+    """Lines that set variables by name."""
+    types = {variable.name: variable.type.lower() for variable in VARIABLES}
+    return [f"{types[name]} {VALUE_REFERENCE[name]} {value!r}" for name, value in values.items()]
+
+
+def case_script(case: Case) -> str:
+    """A run of the driver through a case of `stress`."""
+    lines = [*setting(case.parameters), *setting(case.model.parameters)]
+    for number, hold in enumerate(case.holds):
+        lines += setting(dict(zip(INPUTS, hold.inputs, strict=True)))
+        lines += setting(dict(hold.tuned)) if number else ["initialize"]
+        lines += [f"step {hold.size!r} {hold.count}", GET]
+    return "\n".join(lines) + "\n"
+
+
 def script(values: Mapping[str, float], law: int, fidelity: int) -> str:
     """A run of the driver with steps of several sizes, in which the inputs change."""
-    lines = []
-    for name, value in {**values, "friction_law": law, "fidelity": fidelity}.items():
-        (variable,) = (v for v in VARIABLES if v.name == name)
-        lines.append(f"{variable.type.lower()} {VALUE_REFERENCE[name]} {value!r}")
-    lines.append("initialize")
+    lines = [*setting({**values, "friction_law": law, "fidelity": fidelity}), "initialize"]
     for number, (size, count) in enumerate(STEPS):
         lines += [f"step {size!r} {count}", GET]
         if number == 1:
-            lines += [
-                f"real {VALUE_REFERENCE['phase']} 1.2",
-                f"real {VALUE_REFERENCE['load']} 0.03",
-            ]
+            lines += setting({"phase": 1.2, "load": 0.03})
     return "\n".join(lines) + "\n"

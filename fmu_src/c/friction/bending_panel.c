@@ -69,7 +69,7 @@ static BendingMotion look_out(Outlook *outlook, const System *system, int direct
         return AS_BENT;
     }
     path = outlook->exponent / outlook->rate;
-    double last = sqrt(speed * speed + 2.0 * outlook->acceleration * path);
+    double last = sqrt(fmax(speed * speed + 2.0 * outlook->acceleration * path, 0.0));
     double length = LONGER * 2.0 * path / (speed + last);
     outlook->length = fmin(length, longest / MAX_KERNELS_STEP);
     return MAX_KERNELS_STEP * length * system->split.fastest < MAX_ARC ? BY_PANEL : BY_SERIES;
@@ -95,7 +95,7 @@ static bool goes_on(const Outlook *outlook, SplitSlide *slide, double length) {
     double gained = outlook->speed + outlook->acceleration * length;
     double path = (outlook->speed + 0.5 * fastest * length) * length;
     double lost = 0.5 * bound * length * length + push * outlook->lag * outlook->rate * path;
-    return (outlook->speed > 0.0 || outlook->acceleration > 0.0) && gained - lost > slide->noise;
+    return (outlook->speed > 0.0 || outlook->acceleration > 0.0) && isgreater(gained - lost, slide->noise);
 }
 
 /* Estimate of the error of the velocity [m/s] at the end of the panel: the nodes miss a `share` of f, which changes the

@@ -56,7 +56,7 @@ static double series_reach(const double *coefficients, double tolerance) {
  * much less, times the velocity itself. */
 static double reach_of(const double *coefficients, double tolerance, double scale) {
     double reach = series_reach(coefficients, tolerance * scale), size = 0.0;
-    for (int k = FIRST_TERMS - 1; k >= 0; k--) {
+    for (int k = FIRST_TERMS - 1; k >= 0 && reach < INFINITY; k--) {
         size = size * reach + fabs(coefficients[k]);
     }
     bool is_slow = reach < INFINITY && size < MUCH_SMALLER * scale;
