@@ -97,8 +97,7 @@ def point_name(point: ScenePoint) -> str:
 def worse_result(point: BenchPoint, measured: Sequence[Measurement]) -> str:
     """Return the first result that is further off than the original's, "" where none is.
 
-    Off its reference, that is; or off the original's where any result below or above a bound will
-    do. What only one of them has counts, too.
+    Off its reference, that is, or nearer to its bound. What only one of them has counts, too.
     """
     results = zip(point.scene.expect, measured, point.original, point.expected, strict=True)
     for expect, got, original, expected in results:
@@ -113,7 +112,7 @@ def worse_result(point: BenchPoint, measured: Sequence[Measurement]) -> str:
             before = compare(comparison, original, expected, point).severity
         else:
             before, expected = 0.0, original.value
-            comparison = replace(comparison, against="original", absolute=abs(bound))
+            comparison = replace(comparison, absolute=abs(bound))
         if compare(comparison, got, expected, point).severity > before + NEGLIGIBLE:
             return name
     return ""
