@@ -1,7 +1,6 @@
 """Plot a run, or chosen signals of one or several runs of a scene over a window of time."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +8,6 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.drive_periods import DrivePeriods
@@ -59,15 +57,15 @@ MIN_POINTS = 8
 """Points per drive period below which they are not drawn."""
 
 
-@dataclass(frozen=True)
-class Run:
-    """A run with its name in the legend."""
+Run = tuple[str, Record]
+"""A run with its name in the legend."""
+_Shown = tuple[str, Mapping[str, Array]]
+"""The same, with the part of its table that is drawn."""
+Window = tuple[float, float]
+"""The beginning and the end of the time that is drawn, s."""
 
-    label: str
-    record: Record
 
-
-def check_plot(scene: Scene, names: Sequence[str], window: tuple[float, float] | None) -> None:
+def check_plot(scene: Scene, names: Sequence[str], window: Window | None) -> None:
     """Raise HarnessError for what a plot cannot show.
 
     That is a name that is no output, input or tuned, or is given twice; a window (s) that is empty
@@ -88,47 +86,42 @@ def check_plot(scene: Scene, names: Sequence[str], window: tuple[float, float] |
         )
 
 
-def schedule_for_window(scene: Scene, window: tuple[float, float]) -> Schedule:
+def schedule_for_window(scene: Scene, window: Window) -> Schedule:
     """Return the schedule of a scene with more points in the window.
 
     They are on the whole of a short window, and on the first period of each column of a long one.
     """
     begin, end = window
     drive = scene.drive_periods
-    if is_long(scene, window):
+    periods = _periods_in(window, drive)
+    if periods > MAX_SMOOTH_PERIODS:
         within = np.arange(COLUMN_POINTS + 1) / COLUMN_POINTS
         times = drive.instants(_columns(window, drive)[:, None] + within)
         closest = 0.01 * float(np.diff(times, axis=1).min())
         return scene.schedule().read_at(times[times <= end], closest)
-    count = int(np.ceil(_periods_in(scene, window) * SMOOTH_POINTS)) + 1
-    times = np.linspace(begin, end, max(count, 2))
+    times = np.linspace(begin, end, max(int(np.ceil(periods * SMOOTH_POINTS)) + 1, 2))
     return scene.schedule().read_at(times, 0.01 * float(times[1] - times[0]))
 
 
-def _periods_in(scene: Scene, window: tuple[float, float]) -> float:
+def _periods_in(window: Window, drive: DrivePeriods) -> float:
     """Return how many drive periods pass in a window (s)."""
-    begin, end = scene.drive_periods.passed_by(np.array(window)).tolist()
+    begin, end = drive.passed_by(np.array(window)).tolist()
     return float(end - begin)
 
 
-def is_long(scene: Scene, window: tuple[float, float]) -> bool:
-    """Whether a window (s) has too many drive periods to draw each."""
-    return _periods_in(scene, window) > MAX_SMOOTH_PERIODS
-
-
-def _columns(window: tuple[float, float], drive: DrivePeriods) -> Array:
+def _columns(window: Window, drive: DrivePeriods) -> Array:
     """Return after how many drive periods the columns of an envelope begin, shape (n,).
 
     They are whole periods apart: columns that begin at different angles of the drive would show a
     beat.
     """
-    begin, end = drive.passed_by(np.array(window)).tolist()
-    whole = np.unique(np.floor(np.linspace(0.0, end - begin, COLUMNS + 1)))[:-1]
-    return np.asarray(begin + whole)
+    begin = drive.passed_by(np.array(window[0]))
+    whole = np.linspace(0.0, _periods_in(window, drive), COLUMNS + 1)
+    return np.asarray(begin + np.unique(np.floor(whole))[:-1])
 
 
 def envelope(
-    times: Array, values: Array, window: tuple[float, float], drive: DrivePeriods
+    times: Array, values: Array, window: Window, drive: DrivePeriods
 ) -> tuple[Array, Array, Array, Array]:
     """Return the beginnings of the columns, and lowest, mean and highest value in each, (n,).
 
@@ -152,38 +145,37 @@ def envelope(
 
 
 def plot_signals(
-    runs: Sequence[Run],
-    scene: Scene,
-    signals: Sequence[str],
-    window: tuple[float, float],
-    path: Path,
+    runs: Sequence[Run], scene: Scene, signals: Sequence[str], window: Window, path: Path
 ) -> None:
     """Write a plot with a panel for each signal; each run has its own colour and dash.
 
     With several runs a panel below that of an output has the others less the first. Raises
     HarnessError for a signal that a run does not have.
     """
-    for one in runs:
-        if missing := [name for name in signals if name not in one.record.table()]:
-            raise HarnessError(f"--signals: {', '.join(missing)}: {one.label} has no such output")
-    are_compared = len(runs) > 1 and _same_times(runs)
+    shown: list[_Shown] = []
+    for label, record in runs:
+        table: Mapping[str, Array] = record.table()
+        if missing := [name for name in signals if name not in table]:
+            raise HarnessError(f"--signals: {', '.join(missing)}: {label} has no such output")
+        inside = (record.times >= window[0]) & (record.times <= window[1])
+        shown.append((label, {name: values[inside] for name, values in table.items()}))
+    are_compared = len(runs) > 1 and _same_times(shown)
     compared = ALL_OUTPUTS.keys() - {"contact_mode"} if are_compared else ()
     rows = [(n, below) for n in signals for below in (False, True) if not below or n in compared]
     heights = [1.2 if below else 1.9 for _, below in rows]
+    periods = _periods_in(window, scene.drive_periods)
     with style():
         figure = Figure(figsize=(8.0, sum(heights) + 0.8), layout="constrained")
         figure.suptitle(scene.heading)
         panels = np.atleast_1d(figure.subplots(len(rows), 1, sharex=True, height_ratios=heights))
-        short = _periods_in(scene, window) <= BAND_PERIODS
         time_factor, time_unit = plot_unit("s", np.asarray(window))
         bands: dict[str, Patch] = {}
         for axes, (name, below) in zip(panels, rows, strict=True):
-            _panel(axes, runs, name, window, time_factor, scene, differences=below)
-            if short and len(runs) == 1 and name != "contact_mode":
-                record = runs[0].record
-                inside = _inside(record, window)
-                modes = record["contact_mode"][inside]
-                entries = shade_directions(axes, time_factor * record.times[inside], modes)
+            _panel(axes, shown, name, window, time_factor, scene.drive_periods, differences=below)
+            if periods <= BAND_PERIODS and len(runs) == 1 and name != "contact_mode":
+                _, table = shown[0]
+                times = time_factor * table["time"]
+                entries = shade_directions(axes, times, table["contact_mode"])
                 bands |= {str(entry.get_label()): entry for entry in entries}
         ends = (time_factor * window[0], time_factor * window[1])
         panels[-1].set(xlabel=f"time [{time_unit}]", xlim=ends)
@@ -197,29 +189,28 @@ def plot_signals(
 
 def _panel(
     axes: Axes,
-    runs: Sequence[Run],
+    shown: Sequence[_Shown],
     name: str,
-    window: tuple[float, float],
+    window: Window,
     time_factor: float,
-    scene: Scene,
+    drive: DrivePeriods,
     *,
     differences: bool,
 ) -> None:
-    windows = [_inside(one.record, window) for one in runs]
-    curves = [one.record.table()[name][inside] for one, inside in zip(runs, windows, strict=True)]
+    curves = [table[name] for _, table in shown]
     if differences:
         curves = [curve - curves[0] for curve in curves]
     factor, unit = plot_unit(VARIABLES[name].unit, *curves)
-    enveloped = is_long(scene, window) and name in ALL_OUTPUTS
+    enveloped = _periods_in(window, drive) > MAX_SMOOTH_PERIODS and name in ALL_OUTPUTS
     held = name not in ALL_OUTPUTS or (name == "contact_mode" and not enveloped)
-    if _same_times(runs) and not held:
-        limit_to_later(axes, runs[0].record.times[windows[0]], *(factor * one for one in curves))
-    for index, (one, inside, curve) in enumerate(zip(runs, windows, curves, strict=True)):
+    if _same_times(shown) and not held:
+        limit_to_later(axes, shown[0][1]["time"], *(factor * one for one in curves))
+    for index, ((label, table), curve) in enumerate(zip(shown, curves, strict=True)):
         if differences and index == 0:
             continue
-        times, colour = one.record.times[inside], RUN_COLOURS[index % len(RUN_COLOURS)]
+        times, colour = table["time"], RUN_COLOURS[index % len(RUN_COLOURS)]
         if enveloped:
-            times, lowest, curve, highest = envelope(times, curve, window, scene.drive_periods)
+            times, lowest, curve, highest = envelope(times, curve, window, drive)
             band = (time_factor * times, factor * lowest, factor * highest)
             axes.fill_between(*band, color=colour, alpha=0.25, linewidth=0.0)
         axes.plot(
@@ -228,7 +219,7 @@ def _panel(
             linestyle=DASHES[index % len(DASHES)],
             color=colour,
             drawstyle="steps-post" if held else "default",
-            label=one.label,
+            label=label,
         )
     words = "difference" if differences else name.replace("_", " ")
     axes.set(ylabel=f"{words}\n[{unit}]")
@@ -237,13 +228,9 @@ def _panel(
         axes.set(ylabel="contact")
 
 
-def _same_times(runs: Sequence[Run]) -> bool:
-    return all(np.array_equal(one.record.times, runs[0].record.times) for one in runs[1:])
-
-
-def _inside(record: Record, window: tuple[float, float]) -> NDArray[np.bool_]:
-    inside: NDArray[np.bool_] = (record.times >= window[0]) & (record.times <= window[1])
-    return inside
+def _same_times(shown: Sequence[_Shown]) -> bool:
+    times = [table["time"] for _, table in shown]
+    return all(np.array_equal(one, times[0]) for one in times)
 
 
 def schedule_to_plot(scene: Scene) -> Schedule:
@@ -333,7 +320,5 @@ def _zoom(axes: Axes, record: Record, before: Array, label: str, names: Sequence
         axes.set(xlabel="drive periods before the end")
     else:
         axes.tick_params(labelbottom=False)
-    entries: Mapping[str, Sequence[Artist]] = {"velocity": modes, "force": lines}
-    if shown := entries.get(label):
-        place = (1.0, 0.98)
-        axes.legend(handles=shown, loc="lower right", bbox_to_anchor=place, ncols=len(shown))
+    handles: Sequence[Artist] = modes if label == "velocity" else lines
+    axes.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(handles))
