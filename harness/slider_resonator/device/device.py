@@ -15,15 +15,12 @@ DEVIATIONS = ("amplitude_deviation", "frequency_deviation")
 """Inputs by which the drive differs from what the parameters say, relative to these."""
 
 
-def _real(start: float, unit: str, minimum: float | None = None, **about: Any) -> Any:
-    """Return a field with the rest of what `interface.Variable` says of the parameter."""
-    usual = {"variability": "fixed", "unit": unit, "minimum": minimum, "nominal": start}
-    return field(default=start, metadata={**usual, **about})
-
-
-def _choice(start: int, minimum: int, maximum: int, **version: Any) -> Any:
-    """Return the same of an Integer; `version` is what says since when there is one."""
-    return _real(start, "1", minimum, maximum=maximum, kind="Integer", nominal=None, **version)
+def _value(start: float, unit: str, minimum: float | None = None, **about: Any) -> Any:
+    """Return a field with the rest of what `Variable` says of the parameter: Integer, or Real."""
+    kind = "Integer" if isinstance(start, int) else "Real"
+    nominal = None if kind == "Integer" else start
+    usual = {"variability": "fixed", "kind": kind, "nominal": nominal}
+    return field(default=start, metadata={**usual, "unit": unit, "minimum": minimum, **about})
 
 
 @dataclass(frozen=True, repr=False)
@@ -36,28 +33,28 @@ class Device:
     Raises SceneError, with name, value and requirement.
     """
 
-    slider_mass: float = _real(1.0, "kg", 1e-12)
-    resonator_mass: float = _real(0.1, "kg", 0.0)
-    resonator_frequency: float = _real(3500.0, "rad/s", 1e-6)
-    damping_ratio: float = _real(0.05, "1", 0.0)
-    normal_preload: float = _real(1.0, "N", 0.0, variability="tunable")
-    normal_amplitude: float = _real(1.0, "N", 0.0, variability="tunable")
-    base_amplitude: float = _real(1e-4, "m", 0.0, variability="tunable")
-    drive_frequency: float = _real(3500.0, "rad/s", 1e-6, variability="tunable")
-    tangential_force: float = _real(0.0, "N", nominal=1.0, variability="tunable")
-    friction_coefficient: float = _real(0.1, "1", 0.0, variability="tunable")
-    friction_faces: int = _choice(2, 1, 2)
-    friction_law: int = _choice(0, 0, 1)
-    bristle_stiffness: float = _real(1e5, "1/m", 0.0)
-    bristle_damping: float = _real(10.0, "s/m", 0.0)
-    fidelity: int = _choice(2, 0, 2)
-    tolerance: float = _real(1e-8, "1", 1e-14, maximum=1e-2)
-    initial_position: float = _real(0.0, "m", nominal=1e-3)
-    initial_velocity: float = _real(0.0, "m/s", nominal=0.1)
-    initial_resonator_displacement: float = _real(0.0, "m", nominal=1e-3)
-    initial_resonator_velocity: float = _real(0.0, "m/s", nominal=1.0)
-    initial_bristle_deflection: float = _real(0.0, "m", nominal=1e-6)
-    averaging_order: int = _choice(2, 1, 2, since="0.2.0", without=1)
+    slider_mass: float = _value(1.0, "kg", 1e-12)
+    resonator_mass: float = _value(0.1, "kg", 0.0)
+    resonator_frequency: float = _value(3500.0, "rad/s", 1e-6)
+    damping_ratio: float = _value(0.05, "1", 0.0)
+    normal_preload: float = _value(1.0, "N", 0.0, variability="tunable")
+    normal_amplitude: float = _value(1.0, "N", 0.0, variability="tunable")
+    base_amplitude: float = _value(1e-4, "m", 0.0, variability="tunable")
+    drive_frequency: float = _value(3500.0, "rad/s", 1e-6, variability="tunable")
+    tangential_force: float = _value(0.0, "N", nominal=1.0, variability="tunable")
+    friction_coefficient: float = _value(0.1, "1", 0.0, variability="tunable")
+    friction_faces: int = _value(2, "1", 1, maximum=2)
+    friction_law: int = _value(0, "1", 0, maximum=1)
+    bristle_stiffness: float = _value(1e5, "1/m", 0.0)
+    bristle_damping: float = _value(10.0, "s/m", 0.0)
+    fidelity: int = _value(2, "1", 0, maximum=2)
+    tolerance: float = _value(1e-8, "1", 1e-14, maximum=1e-2)
+    initial_position: float = _value(0.0, "m", nominal=1e-3)
+    initial_velocity: float = _value(0.0, "m/s", nominal=0.1)
+    initial_resonator_displacement: float = _value(0.0, "m", nominal=1e-3)
+    initial_resonator_velocity: float = _value(0.0, "m/s", nominal=1.0)
+    initial_bristle_deflection: float = _value(0.0, "m", nominal=1e-6)
+    averaging_order: int = _value(2, "1", 1, maximum=2, since="0.2.0", without=1)
 
     def __post_init__(self) -> None:
         with explained():
