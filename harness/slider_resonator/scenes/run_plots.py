@@ -7,7 +7,6 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.drive_periods import DrivePeriods
@@ -38,11 +37,9 @@ DASHES = ("-", "--", ":", "-.")
 SMOOTH_POINTS = 64
 """Points per drive period of a smooth curve."""
 MAX_SMOOTH_PERIODS = 120
-"""Drive periods of a window that is drawn in full; a longer one shows envelope and mean."""
-COLUMNS = 400
-"""Most columns of an envelope; each has the extremes and the mean of the period it begins with."""
-COLUMN_POINTS = 64
-"""Points in that period: extremes err by up to 0.2 % of an amplitude, means by 2 % of a jump."""
+"""Drive periods of a window that is drawn in full."""
+DRAWN_PERIODS = 400
+"""Drive periods, evenly spread, that are drawn of a longer one."""
 BAND_PERIODS = 30.0
 """The longest window, in drive periods, in which contact is shown as bands behind the curves."""
 ZOOM_PERIODS = 6
@@ -89,59 +86,24 @@ def check_plot(scene: Scene, names: Sequence[str], window: Window | None) -> Non
 def schedule_for_window(scene: Scene, window: Window) -> Schedule:
     """Return the schedule of a scene with more points in the window.
 
-    They are on the whole of a short window, and on the first period of each column of a long one.
+    They are on the whole of a short window, and on `DRAWN_PERIODS` of a long one: every n-th point
+    of all would show a beat that the vibration does not have.
     """
-    begin, end = window
     drive = scene.drive_periods
-    periods = _periods_in(window, drive)
+    begin, periods = drive.passed_by(np.array(window[0])), _periods_in(window, drive)
     if periods > MAX_SMOOTH_PERIODS:
-        within = np.arange(COLUMN_POINTS + 1) / COLUMN_POINTS
-        times = drive.instants(_columns(window, drive)[:, None] + within)
-        closest = 0.01 * float(np.diff(times, axis=1).min())
-        return scene.schedule().read_at(times[times <= end], closest)
-    times = np.linspace(begin, end, max(int(np.ceil(periods * SMOOTH_POINTS)) + 1, 2))
-    return scene.schedule().read_at(times, 0.01 * float(times[1] - times[0]))
+        begins = begin + np.unique(np.floor(np.linspace(0.0, periods, DRAWN_PERIODS + 1)))[:-1]
+        times = drive.instants(begins[:, None] + np.arange(SMOOTH_POINTS + 1) / SMOOTH_POINTS)
+    else:
+        times = np.linspace(*window, max(int(np.ceil(periods * SMOOTH_POINTS)) + 1, 2))
+    closest = 0.01 * float(np.diff(times).min())
+    return scene.schedule().read_at(times[times <= window[1]], closest)
 
 
 def _periods_in(window: Window, drive: DrivePeriods) -> float:
     """Return how many drive periods pass in a window (s)."""
     begin, end = drive.passed_by(np.array(window)).tolist()
     return float(end - begin)
-
-
-def _columns(window: Window, drive: DrivePeriods) -> Array:
-    """Return after how many drive periods the columns of an envelope begin, shape (n,).
-
-    They are whole periods apart: columns that begin at different angles of the drive would show a
-    beat.
-    """
-    begin = drive.passed_by(np.array(window[0]))
-    whole = np.linspace(0.0, _periods_in(window, drive), COLUMNS + 1)
-    return np.asarray(begin + np.unique(np.floor(whole))[:-1])
-
-
-def envelope(
-    times: Array, values: Array, window: Window, drive: DrivePeriods
-) -> tuple[Array, Array, Array, Array]:
-    """Return the beginnings of the columns, and lowest, mean and highest value in each, (n,).
-
-    `times` (s) and `values` have shape (m,). The mean is that of the period at the beginning;
-    extremes are those of all points of the column.
-    """
-    columns = _columns(window, drive)
-    begins, ends = drive.instants(columns), drive.instants(columns + 1.0)
-    rounding = 0.1 * (ends - begins) / COLUMN_POINTS  # points may have moved to those of the scene
-    lefts = np.searchsorted(times, begins - rounding).tolist()
-    rights = np.searchsorted(times, ends + rounding).tolist()
-    rows = []
-    for left, right, following in zip(lefts, rights, [*lefts[1:], len(times)], strict=True):
-        period = slice(left, right)
-        span = times[right - 1] - times[left]
-        mean = np.trapezoid(values[period], times[period]) / span
-        column = values[left : max(right, following)]
-        rows.append((times[left], column.min(), mean, column.max()))
-    start, lowest, mean, highest = np.array(rows).T
-    return start, lowest, mean, highest
 
 
 def plot_signals(
@@ -163,61 +125,48 @@ def plot_signals(
     compared = ALL_OUTPUTS.keys() - {"contact_mode"} if are_compared else ()
     rows = [(n, below) for n in signals for below in (False, True) if not below or n in compared]
     heights = [1.2 if below else 1.9 for _, below in rows]
-    periods = _periods_in(window, scene.drive_periods)
+    has_bands = len(runs) == 1 and "contact_mode" in shown[0][1]
+    has_bands &= _periods_in(window, scene.drive_periods) <= BAND_PERIODS
     with style():
         figure = Figure(figsize=(8.0, sum(heights) + 0.8), layout="constrained")
         figure.suptitle(scene.heading)
         panels = np.atleast_1d(figure.subplots(len(rows), 1, sharex=True, height_ratios=heights))
         time_factor, time_unit = plot_unit("s", np.asarray(window))
-        bands: dict[str, Patch] = {}
+        handles: Sequence[Artist] = []
         for axes, (name, below) in zip(panels, rows, strict=True):
-            _panel(axes, shown, name, window, time_factor, scene.drive_periods, differences=below)
-            if periods <= BAND_PERIODS and len(runs) == 1 and name != "contact_mode":
+            _panel(axes, shown, name, time_factor, differences=below)
+            if has_bands and name != "contact_mode":
                 _, table = shown[0]
-                times = time_factor * table["time"]
-                entries = shade_directions(axes, times, table["contact_mode"])
-                bands |= {str(entry.get_label()): entry for entry in entries}
+                handles = shade_directions(axes, time_factor * table["time"], table["contact_mode"])
         ends = (time_factor * window[0], time_factor * window[1])
         panels[-1].set(xlabel=f"time [{time_unit}]", xlim=ends)
         figure.align_ylabels(panels)
         panels[-1].ticklabel_format(axis="x", useOffset=False)
-        handles = panels[0].get_lines() if len(runs) > 1 else [*bands.values()]
+        if len(runs) > 1:
+            handles = panels[0].get_lines()
         if handles:
             figure.legend(handles=handles, loc="outside lower center", ncols=min(4, len(handles)))
         save(figure, path)
 
 
 def _panel(
-    axes: Axes,
-    shown: Sequence[_Shown],
-    name: str,
-    window: Window,
-    time_factor: float,
-    drive: DrivePeriods,
-    *,
-    differences: bool,
+    axes: Axes, shown: Sequence[_Shown], name: str, time_factor: float, *, differences: bool
 ) -> None:
     curves = [table[name] for _, table in shown]
     if differences:
         curves = [curve - curves[0] for curve in curves]
     factor, unit = plot_unit(VARIABLES[name].unit, *curves)
-    enveloped = _periods_in(window, drive) > MAX_SMOOTH_PERIODS and name in ALL_OUTPUTS
-    held = name not in ALL_OUTPUTS or (name == "contact_mode" and not enveloped)
+    held = name not in ALL_OUTPUTS or name == "contact_mode"
     if _same_times(shown) and not held:
         limit_to_later(axes, shown[0][1]["time"], *(factor * one for one in curves))
     for index, ((label, table), curve) in enumerate(zip(shown, curves, strict=True)):
         if differences and index == 0:
             continue
-        times, colour = table["time"], RUN_COLOURS[index % len(RUN_COLOURS)]
-        if enveloped:
-            times, lowest, curve, highest = envelope(times, curve, window, drive)
-            band = (time_factor * times, factor * lowest, factor * highest)
-            axes.fill_between(*band, color=colour, alpha=0.25, linewidth=0.0)
         axes.plot(
-            time_factor * times,
+            time_factor * table["time"],
             factor * curve,
             linestyle=DASHES[index % len(DASHES)],
-            color=colour,
+            color=RUN_COLOURS[index % len(RUN_COLOURS)],
             drawstyle="steps-post" if held else "default",
             label=label,
         )
