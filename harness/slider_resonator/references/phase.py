@@ -26,6 +26,11 @@ class Elapsed:
     seconds: float = 0.0
     carry: float = 0.0
 
+    @property
+    def total(self) -> float:
+        """The sum (s), rounded."""
+        return self.seconds + self.carry
+
     def until(self, time: Number) -> Number:
         """Return how far a time, or an array of times, lies ahead (s)."""
         return (time - self.seconds) - self.carry

@@ -163,12 +163,16 @@ class Equations:
         rotating: NDArray[np.complex128] = self.steady_resonator * np.exp(1j * theta)
         return rotating.imag, self.drive_frequency * rotating.real
 
-    def fastest_rate(self, frequency_ratio: float) -> float:
-        """Return the largest of all rates in rad/s of the motion in slip, stick and flight."""
+    def fastest_rate(self, now: HeldInputs, span: float) -> float:
+        """Return the largest of all rates in rad/s of the motion in slip, stick and flight.
+
+        The inputs are ``now`` at the begin of a span in s.
+        """
+        ratio = max(abs(now.frequency_ratio), abs(now.later(span).frequency_ratio))
         damping = self.damping_rate + self.coupling_damping / self.inertia
         stiffness = self.stiffness_rate + self.coupling_stiffness / self.inertia
         root = 0.5 * damping + cmath.sqrt(0.25 * damping**2 - stiffness)
-        return max(self.drive_frequency * max(1.0, abs(frequency_ratio)), abs(root))
+        return max(self.drive_frequency * max(1.0, ratio), abs(root))
 
     def state_scales(self, load: float) -> Array:
         """Return characteristic sizes of the state, shape (4,), for absolute tolerances.

@@ -11,11 +11,7 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import (
-    HeldInputs,
-    turning_apart,
-    with_steady_phase,
-)
+from slider_resonator.device.held_inputs import HeldInputs, turning_apart, with_steady_phase
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import (
     LIFTED,
@@ -38,14 +34,13 @@ from slider_resonator.references.resolved.trajectory import Recorder, Trajectory
 class Segment:
     """A contact mode, to be followed for at most ``span`` s.
 
-    It obeys ``equations`` and begins ``start`` s into the run, under the inputs ``now`` and at the
-    angles (rad) ``theta`` of the drive and ``angle`` of the normal load. The motion is sampled at
-    ``samples`` (shape (n,), ascending, within (0, span], s from its start).
+    It obeys ``equations`` and begins under the inputs ``now``, at the angles (rad) ``theta`` of the
+    drive and ``angle`` of the normal load. The motion is sampled at ``samples`` (shape (n,),
+    ascending, within (0, span], s from its start).
     """
 
     equations: Equations
     mode: int
-    start: float
     state: State
     theta: float
     angle: float
@@ -53,12 +48,6 @@ class Segment:
     span: float
     samples: Array
     direction: int
-
-    @property
-    def largest_ratio(self) -> float:
-        """The largest magnitude of the ratio within the span."""
-        first = self.now.frequency_ratio
-        return max(abs(first), abs(first + self.now.ratio_rate * self.span))
 
 
 @dataclass(frozen=True)
@@ -121,10 +110,10 @@ class ModeSequence:
         if not self._bends:
             self._recorder.enter(mode, began)
         while (remaining := elapsed.until(span)) > 0.0:
-            now = _present(inputs, elapsed)
+            now = inputs.later(elapsed.total)
             chirp = now.ratio_rate * self._equations.drive_frequency
             contact_span = time_to_contact_change(mode == LIFTED, *self._load(now), chirp)
-            result = self._pass(mode, inputs, now, elapsed, min(remaining, contact_span))
+            result = self._pass(mode, now, min(remaining, contact_span), elapsed, inputs)
             if self._bends and result.duration:
                 # Of a start at rest the first instant only shows the direction.
                 self._recorder.enter(mode, began)
@@ -134,7 +123,7 @@ class ModeSequence:
             self._psi = advanced(self._psi, now.turned(result.duration, frequency))
             self.state = result.state
             began = inputs.start + elapsed.seconds
-            now = _present(inputs, elapsed)
+            now = inputs.later(elapsed.total)
             self._guard_progress(result.duration, began)
             if result.event:
                 mode = self._mode_after_event(mode, result.event, now)
@@ -149,15 +138,14 @@ class ModeSequence:
         self._keep_present(mode, end, self._recorder.pending(inputs.stop))
 
     def _pass(
-        self, mode: int, inputs: HeldInputs, now: HeldInputs, elapsed: Elapsed, span: float
+        self, mode: int, now: HeldInputs, span: float, elapsed: Elapsed, inputs: HeldInputs
     ) -> SegmentResult:
         """Follow a mode; ``now`` are the inputs as they are at present."""
         local = elapsed.until(self._recorder.pending(inputs.stop) - inputs.start)
-        samples = local[: np.searchsorted(local, span, side="right")] if len(local) else local
+        samples = local[: np.searchsorted(local, span, side="right")]
         segment = Segment(
             equations=self._equations,
             mode=mode,
-            start=inputs.start + elapsed.seconds,
             state=self.state,
             theta=self._theta,
             angle=self._psi + now.phase,
@@ -232,8 +220,3 @@ class ModeSequence:
                 f"times at one instant (state {self.state!r}): stick and slip cannot be "
                 "distinguished there; perturb the initial state or an input"
             )
-
-
-def _present(inputs: HeldInputs, elapsed: Elapsed) -> HeldInputs:
-    """Return the inputs as they are after a time."""
-    return inputs.later(elapsed.seconds + elapsed.carry) if inputs.vary else inputs

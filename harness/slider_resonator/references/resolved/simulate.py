@@ -48,15 +48,14 @@ def follow_series(segment: Segment) -> SegmentResult:
         units.append(1.0 / equations.path_rate)
     # The displacement counts from the start of the segment: a large position costs no digits.
     states = [0.0, *(one / unit for one, unit in zip(segment.state[1:], units[1:], strict=True))]
-    longest = LONGEST * frequency / equations.fastest_rate(segment.largest_ratio)
+    longest = LONGEST * frequency / equations.fastest_rate(segment.now, segment.span)
     span, times = segment.span * frequency, segment.samples * frequency
     elapsed = Elapsed()
-    now, theta, angle = segment.now, segment.theta, segment.angle
+    theta, angle = segment.theta, segment.angle
     kept = [np.empty((0, len(units)))]
     sampled = steps = event = 0
     while not event and (remaining := elapsed.until(span)) > 0.0:
-        if now.vary:
-            now = segment.now.later((elapsed.seconds + elapsed.carry) / frequency)
+        now = segment.now.later(elapsed.total / frequency)
         series = motion_series(equations, mode, segment.direction, theta, angle, now, states)
         step = min(remaining, longest, _step_of(series) if series.bends else longest)
         if not step > 0.0:
@@ -65,17 +64,15 @@ def follow_series(segment: Segment) -> SegmentResult:
                 "the motion has left the finite numbers"
             )
         share, event = _first_event(segment, series, step)
-        if share < 1.0 or event:
-            step *= share
+        step *= share
         powers = _powers(step)
         states = [sum(map(mul, row, powers)) for row in series.states]
-        if sampled < len(times):
-            local = elapsed.until(times[sampled:])
-            local = local[: np.searchsorted(local, step, side="right")]
-            if len(local):
-                rows: Array = np.polynomial.polynomial.polyval(local, np.array(series.states).T)
-                kept.append(rows.T)
-                sampled += len(local)
+        local = elapsed.until(times[sampled:])
+        local = local[: np.searchsorted(local, step, side="right")]
+        if len(local):
+            rows: Array = np.polynomial.polynomial.polyval(local, np.array(series.states).T)
+            kept.append(rows.T)
+            sampled += len(local)
         steps += 1
         elapsed.add(step)
         theta = advanced(theta, step)
@@ -85,7 +82,7 @@ def follow_series(segment: Segment) -> SegmentResult:
     samples[:, 0] += segment.state[0]
     way, *others = (state * unit for state, unit in zip(states, units, strict=True))
     return SegmentResult(
-        duration=(elapsed.seconds + elapsed.carry) / frequency if event else segment.span,
+        duration=elapsed.total / frequency if event else segment.span,
         state=(segment.state[0] + way, *others),
         event=event,
         samples=samples,

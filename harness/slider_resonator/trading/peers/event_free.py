@@ -53,8 +53,7 @@ def simulate(
         scales, longest = equations.state_scales(inputs.load), np.inf
         if equations.path_rate:
             scales = np.append(scales, 1.0 / equations.path_rate)
-            ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
-            longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
+            longest = 2.0 * np.pi / equations.fastest_rate(inputs, span) / STEPS_PER_FASTEST_PERIOD
         slopes = equations.slopes(None, run.theta, run.psi + inputs.phase, inputs, width)
         given = {"max_step": longest, "rtol": rtol, "atol": atol * scales}
         solver = method(slopes, 0.0, run.state, span, **given)

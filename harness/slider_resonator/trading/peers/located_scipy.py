@@ -53,7 +53,8 @@ def simulate(
 def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -> SegmentResult:
     """Integrate displacement since the start of the segment, velocity, Y and Y'."""
     equations = segment.equations
-    longest = 2.0 * math.pi / equations.fastest_rate(segment.largest_ratio) / steps_per_period
+    fastest = equations.fastest_rate(segment.now, segment.span)
+    longest = 2.0 * math.pi / fastest / steps_per_period
     method: Callable[..., Any] = DOP853
     solver = method(
         equations.slopes(segment.mode, segment.theta, segment.angle, segment.now),
@@ -70,7 +71,7 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
     time, state = 0.0, solver.y
     while solver.status == "running" and not event:
         start = time
-        take_step(solver, segment.start, "use a greater rtol")
+        take_step(solver, segment.now.start, "use a greater rtol")
         steps += 1
         dense = solver.dense_output()
         time, state = solver.t, solver.y
