@@ -50,12 +50,9 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
         rows = [(line, row) for line, row in read if any(cell.strip() for cell in row)]
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ValueError(
-            f"csv {path}: {error}; must be text in UTF-8, UTF-16 or Windows-1252"
-        ) from error
-    except csv.Error as error:
-        raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        must = "must be lines of numbers, in UTF-8, UTF-16 or Windows-1252"
+        raise ValueError(f"csv {path}: {error}; {must}") from error
     header = [name.strip() for name in rows[0][1]] if rows else []
     if separator != ",":
         rows = [(line, [cell.replace(",", ".") for cell in row]) for line, row in rows]

@@ -15,17 +15,15 @@ from slider_resonator.scenes.schema import DeviceFileTable
 from slider_resonator.scenes.table_reading import table_from
 from slider_resonator.scenes.toml_file import read_toml, toml_value
 
-_MARKS: Mapping[str, tuple[str, ...]] = {
-    "grid": ("grid", "list", "random", "measures"),
-    "scene": ("run", "expect", "inputs", "tuning", "need", "sweep"),
-    "device": ("device",),
+_KINDS: Mapping[str, tuple[set[str], str]] = {
+    "grid": ({"grid", "list", "random", "measures"}, "`slider-resonator sweep {0}`"),
+    "scene": (
+        {"run", "expect", "inputs", "tuning", "need", "sweep"},
+        "`slider-resonator run {0}` or `validate --scene {0}`",
+    ),
+    "device": ({"device"}, "`slider-resonator device {0}`, or `--device {0}` of other commands"),
 }
-"""Keys by which a file is known as what it is, in the order in which they decide."""
-_USES = {
-    "grid": "`slider-resonator sweep {file}`",
-    "scene": "`slider-resonator run {file}` or `validate --scene {file}`",
-    "device": "`slider-resonator device {file}`, or `--device {file}` of other commands",
-}
+"""Keys by which a file is known as what it is, the first kind that has one; what it is for."""
 
 
 def refuse_other_kinds(content: Mapping[str, Any], source: str, expected: str) -> None:
@@ -33,9 +31,9 @@ def refuse_other_kinds(content: Mapping[str, Any], source: str, expected: str) -
 
     The message has the command that the file is for.
     """
-    found = next((kind for kind, marks in _MARKS.items() if content.keys() & set(marks)), expected)
+    found = next((kind for kind, (keys, _) in _KINDS.items() if content.keys() & keys), expected)
     if found != expected:
-        use = _USES[found].format(file=source)
+        use = _KINDS[found][1].format(source)
         must = "an FMU" if expected == "FMU" else f"a {expected} file"
         raise SceneError(f"{source}: is a {found} file; must be {must}. Use it in {use}")
 

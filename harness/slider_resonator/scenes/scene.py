@@ -68,22 +68,20 @@ class Scene(Shown):
         signals = {**self.signals, **self.tuning}
         changing = [n for n, s in signals.items() if len(s.times) > 1]
         changing += [name for name in DEVIATIONS if name in self.tuning]
-        if self.run is None:
-            tuned = [name for name in TUNABLES if name in self.tuning]
-            yield from (f"tuning.{name} is for a run: [run] is missing" for name in tuned)
         if self.sweep and self.sweep.variable in changing:
             yield (
                 f"sweep.variable = {self.sweep.variable!r}: changes in the run; must be one whose "
                 "value is constant"
             )
         asked = [(f"expect: {one.quantity}", QUANTITIES[one.quantity]) for one in self.expect]
-        in_run = [key for key, quantity in asked if quantity.needs_run]
+        in_run = [f"tuning.{name}" for name in TUNABLES if name in self.tuning]
+        in_run += [key for key, quantity in asked if quantity.needs_run]
         constant = [key for key, quantity in asked if quantity.needs_constants]
         needs = self.need.needs if self.need else ()
         in_run += [f"need.{name}" for name in needs if name in RUN_NEEDS]
         constant += [f"need.{name}" for name in needs if name in STEADY_NEEDS]
         if self.run is None:
-            yield from (f"{key} is measured in a run: [run] is missing" for key in in_run)
+            yield from (f"{key} needs a run: [run] is missing" for key in in_run)
         if changing:
             yield from (f"{key} needs constant inputs and parameters" for key in constant)
 

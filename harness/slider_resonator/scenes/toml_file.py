@@ -40,13 +40,9 @@ MAX_SHOWN = 60
 
 _NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _HABITS: tuple[tuple[str, str], ...] = (
-    (
-        r"=\s*([-+]?\d{1,3}),(\d{3})\s*(#.*)?$",
-        r"a number has no mark but its decimal point: write \1\2 or \1.\2",
-    ),
-    (r"=\s*([-+]?\d+)'(\d+)\s*(#.*)?$", r"a number has no mark but its decimal point: write \1\2"),
+    (r"=\s*([-+]?\d{1,3}),(\d{3})\s*(#.*)?$", r"a number has no comma: write \1\2 or \1.\2"),
+    (r"=\s*([-+]?\d+)'(\d+)\s*(#.*)?$", r"a number has no apostrophe: write \1\2"),
     (r"=\s*([-+]?)0+(\d+\.?\d*)\s*(#.*)?$", r"a number has no leading zero: write \1\2"),
-    (r"=\s*([-+]?\d+(?:\.\d+)?)\s*%\s*(#.*)?$", r"a share is a number: write \1e-2"),
     (r"=\s*([-+]?\d+),(\d+)\s*(#.*)?$", r"a number has a decimal point: write \1.\2"),
     (r"^(;|//|--|%|/\*)", "a comment begins with #"),
     (r"=[^\[{]*[^\[{,;\s]\s*([,;])\s*(#.*)?$", r"nothing follows a value: delete the \1"),
@@ -54,23 +50,18 @@ _HABITS: tuple[tuple[str, str], ...] = (
     (r"([−–])\s*[\d.]", "a minus sign is -"),
     (r"=\s*([-+]?)(\.\d\S*)", r"a number begins with a digit: write \g<1>0\2"),
     (r"=\s*([-+]?\d+\.)\s*(#.*)?$", r"a number ends with a digit: write \g<1>0"),
-    (r"=\s*(?i:true|yes|on)\s*(#.*)?$", "write true"),
-    (r"=\s*(?i:false|no|off)\s*(#.*)?$", "write false"),
+    (r"=\s*(?i:true|yes|on|false|no|off)\s*(#.*)?$", "write true or false"),
+    (rf"=\s*({_NUMBER}\s*[A-Za-z°µμ/%]+)\s*(#.*)?$", r'a unit needs quotes: write "\1"'),
     (
-        rf"=\s*({_NUMBER}\s*[A-Za-z°µμ/]+)\s*(#.*)?$",
-        r'a number with a unit is in quotes: write "\1"',
+        r"=\s*([\w.()]+\s*[*/^+-]\s*[-+\w.(]|-?(?i:pi|tau)\s*(#.*)?$)",
+        "nothing is computed: write the number, such as 1e-3",
     ),
-    (r"=\s*[\w.()]+\s*[*/^+-]\s*[-+\w.(]", "nothing is computed: write the number, such as 1e-3"),
     (r"^([A-Za-z]\w*) +(\w+)\s*=", r"a key has no blanks: did you mean \1_\2?"),
     (r"=\s*(?i:null|none|nil)\s*(#.*)?$", "delete the line: a key without a value is left out"),
-    (r"=\s*-?(?i:pi|tau)\s*(#.*)?$", "nothing is computed: write the number, such as 3.14159"),
     (r"\[\s*\(", "a pair has square brackets, as in [[0.0, 0.0], [0.05, 0.04]]"),
     (rf"(?:\]\s*\[|{_NUMBER}\s+{_NUMBER})", "a comma must be between two values"),
     (r"=\s*\{\s*\"?(\w+)\"?\s*:", r"must be key = value: write { \1 = ... }"),
-    (
-        r"=\s*(\".*\"|'.*')[^#]*[\w\"'][^#]*$",
-        "a text with quotes in it has the other kind around it, \"...\" or '...'",
-    ),
+    (r"=\s*(\".*\"|'.*')[^#]*[\w\"'][^#]*$", "a text with quotes in it has others around it"),
     (r"=\s*\{\s*(#.*)?$", "a table in braces is on one line: close the brace there"),
 )
 """What other notations have at this place, as a pattern of the line; the remedy."""
