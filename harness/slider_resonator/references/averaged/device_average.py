@@ -145,29 +145,21 @@ def prediction_valid(device: Device, phase: float, load: float, ratio: float) ->
     friction by itself, on the free slider and on one that is held. ``phase`` (rad) is that of the
     normal force relative to the base excitation, ``load`` in N.
     """
-    normal = mean_load(device.normal_preload, device.normal_amplitude, phase, ratio)
-    sliding = device.friction_faces * device.friction_coefficient * normal
-    if not abs(load) < sliding:
+    if not abs(load) < full_friction(device, phase, ratio):
         return False
     try:
         free = equivalent_force(device)
     except ValueError:
         return False
-    held = _force_on_held_slider(device)
-    return min(free.amplitude, held) > _resistance(device, normal, free.ripple_amplitude)
-
-
-def _resistance(device: Device, normal: float, amplitude: float) -> float:
-    """Return the largest friction (N) that a vibration of this amplitude u (m) meets.
-
-    That of bristles is at most ``faces N min(mu, |sigma_0 + i w sigma_1| u)``: what only bends them
-    is not held.
-    """
+    # Of a vibration with the amplitude u bristles resist at most
+    # faces N min(mu, |sigma_0 + i w sigma_1| u): what only bends them is not held.
     share = device.friction_coefficient
     if device.friction_law == 1:
         bristle = complex(device.bristle_stiffness, device.drive_frequency * device.bristle_damping)
-        share = min(share, abs(bristle) * amplitude)
-    return device.friction_faces * normal * share
+        share = min(share, abs(bristle) * free.ripple_amplitude)
+    normal = mean_load(device.normal_preload, device.normal_amplitude, phase, ratio)
+    resistance = device.friction_faces * normal * share
+    return min(free.amplitude, _force_on_held_slider(device)) > resistance
 
 
 def _force_on_held_slider(device: Device) -> float:

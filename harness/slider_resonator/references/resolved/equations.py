@@ -81,12 +81,7 @@ class Equations:
         return self.friction_mean + self.friction_amplitude * sine
 
     def slopes(
-        self,
-        mode: int | None,
-        theta: float,
-        angle: float,
-        now: HeldInputs,
-        width: float = 0.0,
+        self, mode: int | None, theta: float, angle: float, now: HeldInputs, width: float = 0.0
     ) -> Callable[[float, Array], list[float]]:
         """Return the time derivative of the state as a function of time (s) and state (4).
 
@@ -137,12 +132,7 @@ class Equations:
         return slopes
 
     def contact_forces(
-        self,
-        mode: int,
-        load: float | Array,
-        theta: Array,
-        angle: Array,
-        states: Array,
+        self, mode: int, load: float | Array, theta: Array, angle: Array, states: Array
     ) -> tuple[Array, Array]:
         """Return normal and friction force in N along states (n, 4) or (n, 5) in one mode."""
         if mode == LIFTED:

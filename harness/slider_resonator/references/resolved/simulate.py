@@ -42,7 +42,7 @@ def simulate(device: Device, held: Sequence[HeldInputs], times: Array) -> Trajec
 
 def follow_series(segment: Segment) -> SegmentResult:
     """Follow a segment of either friction law; RuntimeError where it leaves the finite numbers."""
-    equations, mode, frequency = segment.equations, segment.mode, segment.equations.drive_frequency
+    equations, frequency = segment.equations, segment.equations.drive_frequency
     units = [1.0 / frequency, 1.0, 1.0 / frequency, 1.0]
     if equations.path_rate:
         units.append(1.0 / equations.path_rate)
@@ -56,7 +56,7 @@ def follow_series(segment: Segment) -> SegmentResult:
     sampled = steps = event = 0
     while not event and (remaining := elapsed.until(span)) > 0.0:
         now = segment.now.later(elapsed.total / frequency)
-        series = motion_series(equations, mode, segment.direction, theta, angle, now, states)
+        series = motion_series(segment, theta, angle, now, states)
         step = min(remaining, longest, _step_of(series) if series.bends else longest)
         if not step > 0.0:
             raise RuntimeError(

@@ -16,7 +16,7 @@ from operator import mul
 
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.equations import Equations
+from slider_resonator.references.resolved.mode_sequence import Segment
 
 ORDER = 24
 """Order of the series: over `LONGEST` rad of the fastest rate the rest is below rounding."""
@@ -45,18 +45,13 @@ class MotionSeries:
 
 
 def motion_series(
-    equations: Equations,
-    mode: int,
-    direction: int,
-    theta: float,
-    angle: float,
-    now: HeldInputs,
-    states: list[float],
+    segment: Segment, theta: float, angle: float, now: HeldInputs, states: list[float]
 ) -> MotionSeries:
-    """Return the series of the motion from `states` on, in a mode and direction.
+    """Return the series of the motion from `states` on, somewhere in a segment.
 
     The angles (rad) are those of drive and normal load, `now` are the inputs there.
     """
+    equations, mode, direction = segment.equations, segment.mode, segment.direction
     frequency = equations.drive_frequency
     unit = 1.0 / (equations.inertia * frequency)
     damping, spring = unit * equations.coupling_damping, unit * equations.coupling_stiffness
