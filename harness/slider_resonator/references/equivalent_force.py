@@ -13,22 +13,18 @@ RESONANCE_RESOLUTION = 1e-12
 class EquivalentForce:
     """The steady vibration of a device without friction, SI units.
 
-    The slider of mass M + m obeys (33) with force ``amplitude * sin(w t - angle)``. The resonator
-    moves as ``resonator_amplitude * sin(w t - resonator_angle)``, (32).
+    The slider of mass M + m obeys (33) with force ``amplitude * sin(w t - angle)``, F_T* and
+    theta1. The resonator moves as ``resonator_amplitude * sin(w t - resonator_angle)``, Y0 and
+    theta of (32). The slider's fast velocity has the amplitude F_T* / ((M + m) w), its fast
+    displacement, the ripple, F_T* / ((M + m) w^2).
     """
 
     amplitude: float
-    """F_T* in N."""
     angle: float
-    """theta1 in rad."""
     resonator_amplitude: float
-    """Y0 in m."""
     resonator_angle: float
-    """theta in rad."""
     velocity_amplitude: float
-    """Amplitude of the slider's fast velocity, F_T* / ((M + m) w), in m/s."""
     ripple_amplitude: float
-    """Amplitude of the slider's fast displacement, F_T* / ((M + m) w^2), in m."""
 
 
 def equivalent_force(device: Device) -> EquivalentForce:

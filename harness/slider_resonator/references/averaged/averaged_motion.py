@@ -118,7 +118,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
         ]
         rows = np.vstack([rows, np.column_stack(here)])
         sampled = np.column_stack([angle, load_angle, ratios, slow_there]).tolist()
-        frictions += [partial(_friction, tuned, force, inputs.load, *one) for one in sampled]
+        frictions += [partial(_friction, tuned, force, inputs.load, one) for one in sampled]
         centre += float(moved[-1])
         slow = float(velocity[-1])
         theta = advanced(theta, tuned.drive_frequency * float(grid[-1]))
@@ -127,18 +127,13 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
 
 
 def _friction(
-    device: Device,
-    force: EquivalentForce,
-    load: float,
-    angle: float,
-    load_angle: float,
-    ratio: float,
-    slow: float,
+    device: Device, force: EquivalentForce, load: float, sample: Sequence[float]
 ) -> float:
-    """Return the mean friction (N) at a slow velocity (m/s).
+    """Return the mean friction (N) under a load (N) at a sample of the motion.
 
-    The angles (rad) are those of drive and normal load.
+    It has the angles (rad) of drive and normal load, the frequency ratio, the slow velocity (m/s).
     """
+    angle, load_angle, ratio, slow = sample
     if force.velocity_amplitude == 0.0:
         full = full_friction(device, load_angle, ratio)
         return float(np.clip(-load, -full, full) if slow == 0.0 else np.sign(slow) * full)
@@ -177,11 +172,23 @@ def _slow_motion(
                 raise ValueError(f"{name} = {rate!r}: must be 0 for a device without vibration")
         friction = full_friction(device, inputs.phase + psi, inputs.frequency_ratio)
         return slide_of_block(velocity, friction, inputs.load, device.total_mass, times)
-    slope, drift = _slow_acceleration(device, force, inputs, theta, psi)
+    span, frequency = inputs.stop - inputs.start, device.drive_frequency
+    turns, ratio = slow_ratio(device, inputs.frequency_ratio + 0.5 * inputs.ratio_rate * span)
+    lead = inputs.phase + psi - ratio * theta
+    momentum = device.total_mass * fast
+
+    def acceleration(time: float, share: float) -> float:
+        """Return the rate of V; V is in units of the fast velocity."""
+        ahead = inputs.turned(time, frequency) - ratio * frequency * time
+        friction = mean_friction(device, force, fast * share, lead + ahead, ratio)
+        return -(friction + inputs.load + inputs.load_rate * time) / momentum
+
+    ends = (inputs.frequency_ratio, inputs.later(span).frequency_ratio)
+    drift = max(abs(end - ratio) for end in ends) * frequency * max(turns, 1)
     max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
     if inputs.load_rate:
         max_step = min(max_step, _passage(device, inputs, fast) / STEPS_PER_PASSAGE)
-    moved, slow = slow_trajectory(slope, times, velocity / fast, max_step)
+    moved, slow = slow_trajectory(acceleration, times, velocity / fast, max_step)
     return fast * moved, fast * slow
 
 
@@ -198,32 +205,6 @@ def _passage(device: Device, inputs: HeldInputs, fast: float) -> float:
         return math.inf
     friction = per_normal * (device.normal_preload + device.normal_amplitude)
     return 2.0 * fast * device.total_mass / (load + friction)
-
-
-def _slow_acceleration(
-    device: Device, force: EquivalentForce, inputs: HeldInputs, theta: float, psi: float
-) -> tuple[Callable[[float, float], float], float]:
-    """Return the rate of V as a function of time and V, and how fast it varies with time (rad/s).
-
-    Both V are in units of the fast velocity. Time is that since the inputs were set, where base
-    excitation and normal load have the angles ``theta`` and ``psi``.
-    """
-    span = inputs.stop - inputs.start
-    turns, ratio = slow_ratio(device, inputs.frequency_ratio + 0.5 * inputs.ratio_rate * span)
-    lead = inputs.phase + psi - ratio * theta
-    frequency = device.drive_frequency
-    first, last = inputs.frequency_ratio, inputs.frequency_ratio + inputs.ratio_rate * span
-    drift = max(abs(first - ratio), abs(last - ratio)) * frequency
-    momentum = device.total_mass * force.velocity_amplitude
-
-    def acceleration(time: float, velocity: float) -> float:
-        ahead = inputs.turned(time, frequency) - ratio * frequency * time
-        friction = mean_friction(
-            device, force, force.velocity_amplitude * velocity, lead + ahead, ratio
-        )
-        return -(friction + inputs.load + inputs.load_rate * time) / momentum
-
-    return acceleration, drift * max(turns, 1)
 
 
 def slow_ratio(device: Device, ratio: float) -> tuple[int, float]:

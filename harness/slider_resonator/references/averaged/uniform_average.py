@@ -32,19 +32,15 @@ _WIDEST_PANEL = 2.0
 class LugreCase:
     """Parameters of (9) without bristle stiffness and frequency.
 
-    Dimensionless as below (9), in units of ``x0 = N0 / (m w0^2)`` and ``1 / w0``, or SI.
+    Dimensionless as below (9), in units of ``x0 = N0 / (m w0^2)`` and ``1 / w0``, or SI. They are
+    q = F_T / Omega > 0, alpha = dN / N0, phi in rad, mu > 0 and sigma_1.
     """
 
     strength: float = 1.0
-    """q = F_T / Omega, above 0."""
     amplitude_ratio: float = 1.0
-    """alpha = dN / N0."""
     phase: float = math.pi / 2.0
-    """phi in rad."""
     friction_coefficient: float = 0.4
-    """mu, above 0."""
     damping: float = 1.0
-    """sigma_1."""
 
 
 def mean_friction(
