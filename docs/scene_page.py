@@ -122,15 +122,15 @@ def _row(name: str, field: FieldInfo) -> tuple[str, ...]:
     (example,) = field.examples or [None]
     shown = _code(f"{name} = {toml_value(example)}")
     unit = str(extra.get("unit", ""))
-    return _code(name), unit, _default(field), field.description or "", shown
+    return _code(name), unit, _default(name, field), field.description or "", shown
 
 
-def _default(field: FieldInfo) -> str:
+def _default(name: str, field: FieldInfo) -> str:
     default = field.default
     if field.is_required():
         return "must be given"
-    if isinstance(default, InputTable):
-        return _code(toml_value(default.constant))
+    if name in InputsTable.model_fields:
+        return _code(toml_value(VARIABLES[name].start))
     if default is None or isinstance(default, BaseModel) or default in ("", (), {}):
         return ""
     return _code(toml_value(default))

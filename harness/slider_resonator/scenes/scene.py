@@ -9,7 +9,7 @@ from typing import Any
 
 from slider_resonator.device.device import DEVIATIONS, Device
 from slider_resonator.device.drive_periods import DrivePeriods, drive_periods
-from slider_resonator.device.interface import INPUTS, TUNABLES, VARIABLES
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
 from slider_resonator.errors import SceneError, explained, unknown_name
@@ -316,7 +316,8 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         files.extend(folder / table.csv for table in tables.values() if table.csv)
         return {n: _signal(t, n, f"{source}: {where}.{n}", folder) for n, t in tables.items()}
 
-    inputs = signals(table.inputs.given(INPUTS), "inputs")
+    inputs = {name: constant(start) for name, start in INPUT_STARTS.items()}
+    inputs |= signals(table.inputs.given(INPUTS), "inputs")
     tuning = signals(table.tuning.given(TUNABLES), "tuning")
     starts = {name: s.at(0.0) for name, s in tuning.items()}
     deviating = signals(table.inputs.given(DEVIATIONS), "inputs")

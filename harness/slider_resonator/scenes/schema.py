@@ -77,23 +77,14 @@ class InputsTable(KeyTable):
         "Deviations of the drive are held over a step, in a run that says `interpolate`, too.",
     )
 
-    phase: InputTable = key(
-        "phase of the normal force against the drive",
-        0.4,
-        unit="rad",
-        default=InputTable(constant=0.0),
+    phase: InputTable | None = key("phase of the normal force against the drive", 0.4, unit="rad")
+    load: InputTable | None = key(
+        "external force against motion in +X", {"steps": [[0.0, 0.0], [0.05, 0.04]]}, unit="N"
     )
-    load: InputTable = key(
-        "external force against motion in +X",
-        {"steps": [[0.0, 0.0], [0.05, 0.04]]},
-        unit="N",
-        default=InputTable(constant=0.0),
-    )
-    frequency_ratio: InputTable = key(
+    frequency_ratio: InputTable | None = key(
         "frequency of the normal force over that of the drive",
         {"ramp": [[0.0, 1.0], [0.1, 1.01]]},
         unit="1",
-        default=InputTable(constant=1.0),
     )
     amplitude_deviation: InputTable | None = key(
         "deviation of base_amplitude and tangential_force, relative to these; -1 is no drive",
@@ -146,10 +137,7 @@ class RunTable(KeyTable):
         "Without [run] only quantities of the steady motion can be expected.",
     )
 
-    one_of = (
-        ("stop_time", "drive_periods"),
-        ("step_size", "steps_per_period", "step_sizes"),
-    )
+    one_of = (("stop_time", "drive_periods"), ("step_size", "steps_per_period", "step_sizes"))
 
     stop_time: Positive | None = key("length of the run", 0.1, unit="s")
     drive_periods: Positive | None = key("length of the run", 100.0, unit="drive periods")

@@ -144,7 +144,7 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
         return wrong
     if kind == "missing" and isinstance(location[-1], int):
         location = location[:-1]  # a pair of one number
-    name, key = location[-1], _key_path(_named(location, content))
+    name, key = location[-1], _key_path(location, content)
     if wrong.startswith(f"{name} = "):
         return key.removesuffix(str(name)) + wrong
     if kind == "extra_forbidden":
@@ -178,20 +178,14 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
     return f"{key}{shown}: {wrong}"
 
 
-def _key_path(location: tuple[int | str, ...]) -> str:
-    path = ""
-    for part in location:
-        path += f"[{part + 1}]" if isinstance(part, int) else f".{part}" if path else part
-    return path
-
-
-def _named(location: tuple[int | str, ...], content: Mapping[str, Any]) -> tuple[int | str, ...]:
-    """Return a location with quantity and reference in place of the number of an expectation."""
-    if len(location) < 2 or location[0] != "expect" or not isinstance(location[1], int):
-        return location
-    expect = with_bundles(content)["expect"][location[1]]
-    known = [str(expect[key]) for key in ("quantity", "reference") if key in expect]
-    return (f"expect[{', '.join(known)}]", *location[2:]) if known else location
+def _key_path(location: tuple[int | str, ...], content: Mapping[str, Any]) -> str:
+    """Return the path of a key; an expectation goes by quantity and reference, if it has any."""
+    parts = [f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in location]
+    if len(location) > 1 and location[0] == "expect" and isinstance(location[1], int):
+        expect = with_bundles(content)["expect"][location[1]]
+        known = [str(expect[key]) for key in ("quantity", "reference") if key in expect]
+        parts[1] = f"[{', '.join(known)}]" if known else parts[1]
+    return "".join(parts).lstrip(".")
 
 
 def _fields_at(location: tuple[int | str, ...], top: type[BaseModel]) -> dict[int | str, FieldInfo]:
