@@ -11,8 +11,6 @@ from slider_resonator.device.units import SHOWN, is_number, registry, si_number
 FIRST = "0.1.0"
 """First version of the interface, all of whose variables an FMU must have."""
 LARGEST = sys.float_info.max
-LARGEST_INTEGER = 2**31 - 1
-"""FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
 
 Causality = Literal["input", "parameter", "output"]
 
@@ -49,10 +47,6 @@ class Variable:
             return f"{kind} of at least {self.minimum:g}{unit}"
         return f"{kind} from {self.minimum:g} to {self.maximum:g}{unit}"
 
-    def read(self, value: object) -> float:
-        """Return a number, or a text with a unit, in SI units, as `checked` does."""
-        return self.checked(self.in_si(value) if isinstance(value, str) else value)
-
     def in_si(self, text: str) -> float:
         """Return the number of a text in the SI unit, as `si_number` does."""
         if self.kind == "Integer" and not is_number(text):
@@ -74,27 +68,19 @@ class Variable:
             quantity = quantity.to(suited.to_compact().units)
         return f"{quantity:.6g~P}".replace("µ", "u")
 
-    def checked(self, value: object) -> float:
-        """Return a value as a float, or as an int of an Integer.
+    def read(self, value: object) -> float:
+        """Return a number, or a text with a unit, in SI units: a float, or the int of an Integer.
 
         Raises ValueError, with name, value and requirement, for one that the interface refuses.
         """
+        if isinstance(value, str):
+            value = self.in_si(value)
         if isinstance(value, bool) or not isinstance(value, Real):
             raise ValueError(f"{self.name} = {value!r}: must be a number")
         number: Any = getattr(value, "item", lambda: value)()  # those of numpy have other bounds
-        if self.kind == "Integer":
-            check_integer(self.name, number)
-            number = int(number)
+        kind = int if self.kind == "Integer" else float
         low = -LARGEST if self.minimum is None else self.minimum
         high = LARGEST if self.maximum is None else self.maximum
-        if not low <= number <= high:
+        if not low <= number <= high or (kind is int and number % 1 != 0):
             raise ValueError(f"{self.name} = {number!r}: must be {self.requirement}")
-        return number if self.kind == "Integer" else float(number)
-
-
-def check_integer(name: str, value: float) -> None:
-    """Raise ValueError, with name, value and requirement, unless the value is an FMI Integer."""
-    if value % 1 != 0:
-        raise ValueError(f"{name} = {value!r}: must be an integer")
-    if abs(value) > LARGEST_INTEGER:
-        raise ValueError(f"{name} = {value!r}: must be an integer up to {LARGEST_INTEGER}")
+        return kind(number)

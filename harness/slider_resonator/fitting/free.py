@@ -95,7 +95,7 @@ def free_parameters(
         for bound in (low, high):
             if isfinite(bound):
                 with explained("bounds of "):
-                    VARIABLES[name].checked(bound)
+                    VARIABLES[name].read(bound)
         if not low < high:
             raise HarnessError(f"bounds of {name} = {low:g} to {high:g}: must be ascending")
         start = min(max(start, low), high)

@@ -19,8 +19,7 @@ from fmpy.model_description import ModelVariable
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
-from slider_resonator.device.variable import check_integer
-from slider_resonator.errors import FmuError, Refusal, explained
+from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.limits import MAX_WRITTEN
@@ -28,6 +27,8 @@ from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
 """Relative difference up to which two communication steps count as equal."""
+LARGEST_INTEGER = 2**31 - 1
+"""FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
 
 _numbers = count(1)
 _loading = Lock()
@@ -192,8 +193,9 @@ class Instance:
         values = self.fmu.settings(values)
         integers, reals, block = self._settable(tuple(values))
         for name, reference in integers.items():
-            with explained(kind=FmuError):
-                check_integer(name, values[name])
+            if values[name] % 1 != 0 or abs(values[name]) > LARGEST_INTEGER:
+                must = f"must be an integer up to {LARGEST_INTEGER}"
+                raise FmuError(f"{name} = {values[name]!r}: {must}")
             self.slave.setInteger([reference], [int(values[name])])
         block.write([values[name] for name in reals])
 

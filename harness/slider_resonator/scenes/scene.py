@@ -355,5 +355,5 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         else:
             signal = constant(table.constant or 0.0)
         for value in signal.values:
-            VARIABLES[name].checked(value)
+            VARIABLES[name].read(value)
         return signal

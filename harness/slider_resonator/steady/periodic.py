@@ -75,7 +75,7 @@ class FmuPeriodMap(PeriodicRun):
             device, self.values = instance.read(DEVICE), instance.read(names)
         device["drive_frequency"] *= 1.0 + given.get("frequency_deviation", 0.0)
         with explained(f"{instance.fmu.path.name} reports ", FmuError):
-            VARIABLES["drive_frequency"].checked(device["drive_frequency"])
+            VARIABLES["drive_frequency"].read(device["drive_frequency"])
         self.device = Device().tuned(device.items())
         self.phase, self.ratio = self.values["phase"], self.values["frequency_ratio"]
         self.periods = 0

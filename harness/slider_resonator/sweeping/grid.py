@@ -225,7 +225,7 @@ def grid_from(
     for name, values in columns.items():
         for value in values:
             with explained(f"{source}: "):
-                VARIABLES[name].checked(value)
+                VARIABLES[name].read(value)
     task = Task(
         names=table.names,
         fixed=tuple((name, float(value)) for name, value in fixed.items()),

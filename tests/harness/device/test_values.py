@@ -25,9 +25,9 @@ from slider_resonator.fmu.opening import Fmu
     [
         ("load", np.float32(inf), "load = inf: must be a finite number"),
         ("load", 10**400, "load = 1000"),
-        ("friction_law", 10**400, "must be an integer up to 2147483647"),
+        ("friction_law", 10**400, "must be an integer from 0 to"),
         ("fidelity", inf, "fidelity = inf: must be an integer"),
-        ("fidelity", 2.0**32 + 2, "must be an integer up to 2147483647"),
+        ("fidelity", 2.0**32 + 2, "must be an integer from 0 to"),
         ("tolerance", 0.1, "tolerance = 0.1: must be a finite number from 1e-14 to 0.01"),
         ("drive_frequency", "20 khz", "unknown unit 'khz'"),
         ("slider_mass", "50 gr", "unknown unit 'gr'"),
@@ -45,7 +45,7 @@ def test_invalid_value_is_refused_by_name(name: str, value: Any, said: str) -> N
     """Others are among the mistakes in files and in commands."""
     variable = VARIABLES[name]
     with pytest.raises(ValueError, match=name) as error:
-        variable.in_si(value) if isinstance(value, str) else variable.checked(value)
+        variable.read(value)
     assert said in str(error.value)
 
 
@@ -54,11 +54,11 @@ def test_bounds_are_inclusive(variable: Variable) -> None:
     bounds = (variable.minimum, variable.maximum)
     for value in (-1e300 if bounds[0] is None else bounds[0], variable.start):
         assert value is not None
-        variable.checked(value)
+        variable.read(value)
     if bounds[1] is not None:
-        variable.checked(bounds[1])
+        variable.read(bounds[1])
     elif variable.kind == "Real":
-        variable.checked(1e300)
+        variable.read(1e300)
 
 
 @pytest.mark.parametrize(
