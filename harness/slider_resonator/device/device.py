@@ -83,8 +83,7 @@ class Device:
     def tuned(self, values: Iterable[tuple[str, float]]) -> "Device":
         """Return the device as it is in a run while parameters and `DEVIATIONS` have these values.
 
-        Nothing is checked: a drive that deviates may be slower than a parameter can say, and a
-        search may try any state.
+        Nothing is checked: a drive may deviate, and a search try, beyond the bounds of parameters.
         """
         device = copy(self)
         own = vars(device)

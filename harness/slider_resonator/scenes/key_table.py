@@ -52,8 +52,7 @@ PARAMETER_MEANINGS: Mapping[str, str] = {
 class KeyTable(BaseModel):
     """A table of a scene file; a key that it does not list is refused.
 
-    `rules` are those that hold between its keys. Of each group of `one_of` exactly one is given,
-    of `some_of` at least one.
+    `rules` hold between its keys. Each group of `one_of` has exactly one, `some_of` at least one.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)

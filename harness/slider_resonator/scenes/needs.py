@@ -21,8 +21,7 @@ RUN_NEEDS = (
 class AllowedTable(KeyTable):
     """Allowed error of a needed quantity: `abs + rel * size`, where either may be left out.
 
-    `abs` is in the quantity's unit. The size is the magnitude of a number, the peak of a signal and
-    the drive period for event times.
+    `abs` is in the quantity's unit; the size is that of `rel`.
     """
 
     rules: ClassVar[tuple[str, ...]] = ("At least one of `abs` and `rel`.",)

@@ -63,11 +63,7 @@ Window = tuple[float, float]
 
 
 def check_plot(scene: Scene, names: Sequence[str], window: Window | None) -> None:
-    """Raise HarnessError for what a plot cannot show.
-
-    That is a name that is no output, input or tuned, or is given twice; a window (s) that is empty
-    or not within the run.
-    """
+    """Raise HarnessError for names of no signal or given twice, and windows beyond the run."""
     allowed = [*ALL_OUTPUTS, *INPUTS, *scene.tuning]
     for name in names:
         if name not in allowed:

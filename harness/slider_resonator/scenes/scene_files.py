@@ -44,8 +44,7 @@ def find_scene(
     """Return the built-in scene of a name, or that of a file, as `FILE#NAME` one of several.
 
     `device` takes the place of the scene's as in `Scene.with_device`, `values` replace those of
-    both, and the title says so, that of the device first. Raises SceneError with the nearest name,
-    and as `read_scenes` does.
+    both, and the title says so. Raises SceneError with the nearest name, and as `read_scenes` does.
     """
     scene = only_scene(_scenes_of(name_or_file), name_or_file)
     if not values and not (device and device.values):

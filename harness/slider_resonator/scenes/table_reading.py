@@ -65,8 +65,7 @@ def _in_si(value: Any, path: str = "", unit: str = "") -> Any:
     """Return the content of a file, with numbers in SI units for its texts with a unit.
 
     `unit` is that of the values at a path, empty for what has none. What is no such text stays as
-    it is, for the schema to refuse. Raises ValueError with key, value and requirement for a unit
-    that does not fit.
+    it is, for the schema to refuse. Raises ValueError with key, value and requirement.
     """
     if path.endswith("device"):
         return value  # its schema reads units

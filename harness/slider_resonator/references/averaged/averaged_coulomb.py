@@ -1,9 +1,9 @@
 """The averaged friction of Coulomb, at any integer ratio of the two frequencies.
 
 Velocities are in units of ``x0 w0`` and forces in units of the mean friction ``faces mu N0``.
-``strength`` is q, ``amplitude_ratio`` alpha, ``ratio`` the frequency of the normal load over that
-of the drive, and ``phase`` the phase of the normal load when the tangential force passes through
-zero upward. The contact may lift (``amplitude_ratio`` > 1).
+``strength`` is q > 0, ``amplitude_ratio`` alpha, ``ratio`` the frequency of the normal load over
+that of the drive, and ``phase`` the phase of the normal load when the tangential force passes
+through zero upward. The contact may lift (``amplitude_ratio`` > 1).
 """
 
 import math
@@ -23,8 +23,7 @@ def mean_friction(
     The fast velocity is ``velocity - strength cos(theta)``; at and beyond ``strength`` friction no
     longer changes sign. An integer ratio n gives
     ``1 - 2 theta / pi - 2 alpha / (n pi) sin(n theta) sin(phase)`` for a contact that never lifts;
-    where the load never repeats (see `turns_until_repeat`) only its mean counts. ``strength`` is
-    above 0.
+    where the load never repeats (see `turns_until_repeat`) only its mean counts.
     """
     angle = math.acos(max(-1.0, min(1.0, velocity / strength)))
     slide = 1.0 - 2.0 * angle / math.pi

@@ -4,8 +4,7 @@ The slow velocity V obeys ``total_mass V' = -friction - load``, friction being t
 fast motion of the slider with velocity ``V - v_q cos(theta - theta1)``. Near an integer n the
 frequency ratio lets the phase of the normal load drift slowly, by (ratio - n) w, which is appendix
 A of the paper for every n; a clipped load does so near fractions too; elsewhere the mean load
-counts. The fast motion is that of (32)-(34): the resonator vibrates steadily. The normal load is
-the instantaneous one.
+counts. The fast motion is the steady vibration of (32)-(34), the normal load the instantaneous one.
 """
 
 import math
@@ -75,8 +74,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     The initial values determine the momentum and the centre of mass of slider and resonator;
     directly after the start the fast motion is the steady vibration, whatever they are. Without
     vibration the motion is that of a block under dry friction. Where a run tunes the drive,
-    momentum and centre are continuous, so the slow velocity jumps by the change of the drive's
-    part.
+    momentum and centre are continuous; the slow velocity jumps with the drive's part of them.
 
     Raises ValueError as `fast_motion` does, RuntimeError when the slow motion cannot be integrated.
     """

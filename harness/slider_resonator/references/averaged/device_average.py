@@ -102,8 +102,7 @@ def stable_velocity(friction: Callable[[float], float], strength: float, load: f
     ``friction`` is the averaged friction at a slow velocity, constant from +-strength on, ``load``
     in its unit. LuGre friction is not monotonic, so that a load above that of full sliding may be
     balanced, and at more than one velocity: the one farthest in the direction in which the slider
-    leaves rest without load is returned, forward if it does not but for rounding. Raises ValueError
-    if there is none.
+    leaves rest without load is returned, forward if it stays. Raises ValueError if there is none.
     """
 
     def excess(turn: float) -> float:

@@ -232,9 +232,8 @@ def equations_of(device: Device) -> Equations:
 def initial_state(device: Device) -> State:
     """Return the initial state; in fidelity 1 the resonator has none of its own.
 
-    There it vibrates steadily from the start, and the momentum of the pair is that of the initial
-    velocities: the slider takes what the resonator does not have. Raises ValueError as
-    `equations_of` does.
+    There it vibrates steadily from the start; the slider takes the rest of the momentum that the
+    initial velocities give the pair. Raises ValueError as `equations_of` does.
     """
     velocity, displacement = device.initial_velocity, device.initial_resonator_displacement
     resonator_velocity = device.initial_resonator_velocity

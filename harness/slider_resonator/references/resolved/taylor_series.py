@@ -34,8 +34,7 @@ class MotionSeries:
     """The series of a motion: `states` are w x, X', w Y, Y' and, with LuGre friction, W.
 
     `needed` is the force that the slider needs to keep its velocity, `limit` the largest friction,
-    both over inertia and drive frequency. `bends` says whether the bristle has not yet the stretch
-    of steady sliding.
+    both over inertia and drive frequency. `bends`: the bristle lacks the stretch of steady sliding.
     """
 
     states: list[Series]
