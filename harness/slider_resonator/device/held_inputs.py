@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Self
 
+from slider_resonator.arrays import Number
 from slider_resonator.device.device import Device
 
 
@@ -40,7 +41,7 @@ class HeldInputs:
             frequency_ratio=self.frequency_ratio + self.ratio_rate * elapsed,
         )
 
-    def turned(self, duration: float, frequency: float) -> float:
+    def turned(self, duration: Number, frequency: float) -> Number:
         """Return the angle (rad) by which psi grows in ``duration`` (s) at a drive frequency."""
         ratio = self.frequency_ratio + 0.5 * self.ratio_rate * duration
         return ratio * frequency * duration

@@ -2,11 +2,8 @@
 
 import math
 from dataclasses import dataclass
-from typing import TypeVar
 
-from slider_resonator.arrays import Array
-
-Number = TypeVar("Number", float, Array)
+from slider_resonator.arrays import Number
 
 _TURN = 2.0 * math.pi
 _TURN_REMAINDER = 2.4492935982947064e-16  # 2 pi minus its double precision value

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.arrays import Array
+from slider_resonator.arrays import Array, Number
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.equivalent_force import steady_vibration
-from slider_resonator.references.phase import Number
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 
 State = tuple[float, ...]

@@ -164,8 +164,7 @@ class ModeSequence:
     def _keep(self, mode: int, inputs: HeldInputs, local: Array, states: Array) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * local
-        rate, half = equations.drive_frequency, 0.5 * inputs.ratio_rate
-        angle = self._psi + inputs.phase + (inputs.frequency_ratio + half * local) * rate * local
+        angle = self._psi + inputs.phase + inputs.turned(local, equations.drive_frequency)
         resonator = equations.resonator_motion(theta, states)
         load = inputs.load + inputs.load_rate * local
         forces = equations.contact_forces(mode, load, theta, angle, states)

@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 from scipy.integrate import LSODA
 
-from slider_resonator.arrays import Array
+from slider_resonator.arrays import Array, Number
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
-from slider_resonator.references.phase import Number
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.trajectory import Recorder, Trajectory
@@ -121,8 +120,7 @@ class RunWithoutEvents:
 
     def angles(self, inputs: HeldInputs, local: Number) -> Number:
         """Return psi + phase in rad at times in s since the start of the inputs."""
-        ratio = inputs.frequency_ratio + 0.5 * inputs.ratio_rate * local
-        return self.psi + inputs.phase + ratio * self.equations.drive_frequency * local
+        return self.psi + inputs.phase + inputs.turned(local, self.equations.drive_frequency)
 
     def keep(self, inputs: HeldInputs, local: Array, states: Array, friction: Array) -> None:
         """Keep states (k, 4 or 5) and friction (k,) in N at times in s since the inputs' start."""

@@ -125,8 +125,8 @@ def _margin(segment: Segment, dense: Dense, event: int, time: float | Array) -> 
     if segment.mode != STICK:
         return np.asarray(segment.mode * velocity)
     local, now = np.asarray(time), segment.now
-    rate, half = equations.drive_frequency, 0.5 * now.ratio_rate
-    angle = segment.angle + (now.frequency_ratio + half * local) * rate * local
+    rate = equations.drive_frequency
+    angle = segment.angle + now.turned(local, rate)
     load = now.load + now.load_rate * local
     theta = segment.theta + rate * local
     needed = equations.needed_force(load, theta, displacement, resonator_velocity)
