@@ -1,5 +1,1 @@
-"""Independent reference models of the slider-resonator.
-
-Nothing here imports the component: an FMU and these models meet only in numbers. ``README.md``
-lists their equations.
-"""
+"""Models that share no code with the component; ``README.md`` lists their equations."""

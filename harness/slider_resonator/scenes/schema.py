@@ -243,8 +243,8 @@ class ExpectTable(KeyTable):
         return self
 
     def _check_tolerance(self, quantity: Quantity) -> None:
+        given = self.model_fields_set & {"absolute", "relative"}
         if quantity.in_periods:
-            given = sorted(self.model_fields_set & {"absolute", "relative"})
             if self.tube is None or given:
                 raise ValueError(f"{self.quantity} needs a tube, a share of the period, alone")
             return
@@ -254,9 +254,9 @@ class ExpectTable(KeyTable):
             raise ValueError(f"tube = {self.tube!r}: {self.quantity} can have one {only}")
         signal = quantity.kind == "signal"
         alone = quantity.exact or not self.relative > 0.0
-        if signal and "absolute" in self.model_fields_set and alone:
+        if signal and "absolute" in given and alone:
             raise ValueError(f"{self.quantity} is a signal: must be relative, not absolute alone")
-        if not quantity.exact and not self.model_fields_set & {"absolute", "relative"}:
+        if not quantity.exact and not given:
             needed = "relative, a share of the peak" if signal else "relative or absolute"
             raise ValueError(f"{self.quantity} is a real number: it needs a tolerance, {needed}")
 

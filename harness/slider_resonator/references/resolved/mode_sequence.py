@@ -90,12 +90,7 @@ class ModeSequence:
         self._direction = -1 if self.state[1] < 0.0 else 1
 
     def run(self, held: Sequence[HeldInputs]) -> Trajectory:
-        """Return the motion through the held inputs, or ones with rates.
-
-        A sample on a boundary between held inputs belongs to the inputs before it. Counts and
-        event times cover the whole span of the inputs, whatever the times. Raises RuntimeError for
-        a contact that cannot be resolved in floating point numbers.
-        """
+        """Return the motion through the inputs, as `simulate` does."""
         for inputs in turning_apart(with_steady_phase(held, self._device)):
             self._equations = equations_of(self._device.tuned(inputs.tuned))
             self._run_held(inputs)
@@ -173,8 +168,8 @@ class ModeSequence:
 
     def _keep_present(self, mode: int, inputs: HeldInputs, times: Array) -> None:
         """Keep the present state as the sample of each of the times."""
-        if count := len(times):
-            self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
+        count = len(times)
+        self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
 
     def _load(self, inputs: HeldInputs) -> tuple[float, float, float, float]:
         """Return preload and amplitude (N) of the normal load, its angle (rad) and rate (rad/s)."""
