@@ -70,10 +70,8 @@ def si_number(name: str, text: str, unit: str) -> float:
         match = _TEXT.fullmatch(text)
     number = "number" if unit == "1" else f"number in {unit}"
     must = f"must be a {number}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
-    if match is None:
+    if match is None or match["unit"] in _MISREAD:
         raise ValueError(f"{name} = {text!r}: {must}")
-    if match["unit"] in _MISREAD:
-        raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}")
     import pint
 
     try:

@@ -111,7 +111,7 @@ def solution_of(run: Trajectory, *, located: bool) -> Solution:
         last_event=last if located else None,
         steps=run.steps or None,
         evaluations=run.evaluations,
-        events=len(run.event_times) if located else run.reversals,
+        events=len(run.event_times if located else run.reversal_times),
     )
 
 

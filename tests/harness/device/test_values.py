@@ -30,7 +30,7 @@ from slider_resonator.fmu.opening import Fmu
         ("fidelity", 2.0**32 + 2, "must be an integer from 0 to"),
         ("tolerance", 0.1, "tolerance = 0.1: must be a finite number from 1e-14 to 0.01"),
         ("drive_frequency", "20 khz", "unknown unit 'khz'"),
-        ("slider_mass", "50 gr", "unknown unit 'gr'"),
+        ("slider_mass", "50 gr", "slider_mass = '50 gr': must be a number in kg, or"),
         (
             "load",
             "9**9**9 N",

@@ -27,5 +27,5 @@ def assert_agree(expected: Trajectory, found: Trajectory, allowed: float) -> Non
     for signal in (*SIGNALS, "bristle_deflection"):
         off = deviation(expected, found, signal)
         assert off <= allowed, f"{signal} deviates by {off:.1e} of its peak"
-    counts = [(run.reversals, np.count_nonzero(run.modes == STICK)) for run in (expected, found)]
+    counts = [(run.reversal_times.size, sum(run.modes == STICK)) for run in (expected, found)]
     assert counts[0] == counts[1], "reversals and sticks"

@@ -16,10 +16,10 @@ class Trajectory:
 
     ``contact_mode`` is -1 slip backward, 0 stick, 1 slip forward, 2 lifted. ``friction_force`` is F
     as it acts in M X'' = -F - load + ... (in stick the force that holds the slider).
-    ``reversals`` counts slips that start opposite to the slip before them, whether directly, after
-    a stick or after a flight. ``event_times`` are the instants of every change of contact mode, s,
-    and ``modes`` the contact modes at the first instant and from each of them on: one more.
-    ``reversal_times`` (s) are those of the reversals, NaN where they are not located.
+    ``event_times`` are the instants of every change of contact mode, s, and ``modes`` the contact
+    modes at the first instant and from each of them on: one more. A reversal is a slip that starts
+    opposite to the slip before it, whether directly, after a stick or after a flight;
+    ``reversal_times`` (s) are NaN where they are not located.
 
     ``bristle_deflection`` is z of (8) in m, 0 with Coulomb friction. Bristles never stick: with
     them ``contact_mode`` is the sign of the velocity (2 while lifted).
@@ -34,7 +34,6 @@ class Trajectory:
     friction_force: Array
     bristle_deflection: Array
     contact_mode: NDArray[np.int64]
-    reversals: int
     event_times: Array
     reversal_times: Array
     modes: NDArray[np.int64]
@@ -112,7 +111,6 @@ class Recorder:
             friction_force=signals[:, 5],
             bristle_deflection=signals[:, 6],
             contact_mode=signals[:, 7].astype(np.int64),
-            reversals=len(self.reversal_times),
             event_times=np.array(self.event_times),
             reversal_times=np.array(self.reversal_times),
             modes=np.array(self.modes, dtype=np.int64),

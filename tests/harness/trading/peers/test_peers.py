@@ -101,7 +101,7 @@ def test_chatter_replaces_a_stick_and_has_a_bound() -> None:
     sgn = partial(simulate, method=DOP853, rtol=1e-6)
     run = sgn(BLOCK, until(stop + 0.1, load=0.05), times, atol=1e-3)
     assert np.abs(run.velocity).max() < 1e-3, "friction keeps the velocity near zero"
-    assert run.reversals > 10, "sgn jumps to and fro where the slider should be held"
+    assert run.reversal_times.size > 10, "sgn jumps to and fro where the slider should be held"
     assert not len(run.modes), "without events there is no stick"
     assert abs(run.friction_force) == pytest.approx(0.2), "never the force that would hold it"
     with pytest.raises(RuntimeError, match=r"t = 1\.3.* = 20000: it chatters"):
