@@ -6,9 +6,7 @@ from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
-from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import SceneError, unknown_name
-from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene import Scene, only_scene, read_scenes
 
@@ -37,9 +35,7 @@ def is_core(scene: Scene) -> bool:
 
 
 def find_scene(
-    name_or_file: str,
-    values: Mapping[str, float] | None = None,
-    device: DeviceFile | None = None,
+    name_or_file: str, values: Mapping[str, float] | None = None, device: DeviceFile | None = None
 ) -> Scene:
     """Return the built-in scene of a name, or that of a file, as `FILE#NAME` one of several.
 
@@ -49,14 +45,9 @@ def find_scene(
     scene = only_scene(_scenes_of(name_or_file), name_or_file)
     if not values and not (device and device.values):
         return scene
-    own = scene.with_device(device.values if device else {})
-    varied = own.with_values(values or {})
-    before, after = vars(own.device), vars(varied.device)
-    changed = [name for name in before if before[name] != after[name]]
-    changed += [name for name in values or {} if name not in PARAMETERS]
+    varied = scene.with_device(device.values if device else {}).with_values(values or {})
     title = f"{device.title}, in scene {scene.name}" if device else scene.title
-    said = ", ".join(changed) if len(changed) < 4 else number_of(len(changed), "value")
-    return replace(varied, title=f"{title}, {said} replaced" if changed else title)
+    return replace(varied, title=f"{title}, {', '.join(values)} replaced" if values else title)
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:
