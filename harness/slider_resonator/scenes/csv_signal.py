@@ -92,10 +92,9 @@ def csv_signal(path: Path, column: str, between: str, unit: str) -> Signal:
         )
     column = split_heading(column)[0]
     name = column if column in names else "value"
-    if name not in names:
-        raise ValueError(f"csv {path}: no column {column!r} or 'value', only {header[1:]}")
-    if names.count(name) > 1:
-        raise ValueError(f"csv {path}: {names.count(name)} columns {name!r}; must be one")
+    if (count := names.count(name)) != 1:
+        among = f"columns {column!r} or 'value' among {header[1:]}"
+        raise ValueError(f"csv {path}: {count} {among}; must be one")
     index = names.index(name)
     with explained(f"csv {path}: heading ", ValueError):
         factors = heading_factor(header[0], "s"), heading_factor(header[index], unit)
