@@ -5,7 +5,6 @@ passed on, for the schema to refuse.
 """
 
 import tomllib
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
@@ -40,13 +39,10 @@ def variants(content: Content, source: str) -> dict[str, Content]:
     if not _is_list_of_tables(given) or not given:
         raise SceneError(f"{source}: variant: must be a list of tables, each headed [[variant]]")
     shared = {key: value for key, value in content.items() if key not in ("name", "variant")}
-    for number, variant in enumerate(given, start=1):
-        if not isinstance(variant.get("name"), str):
+    names = [variant.get("name") for variant in given]
+    for number, name in enumerate(names, start=1):
+        if not isinstance(name, str) or name in names[: number - 1]:
             raise SceneError(f"{source}: variant {number}: must have a name of its own, in quotes")
-    names = Counter(variant["name"] for variant in given)
-    for name, times in names.items():
-        if times > 1:
-            raise SceneError(f"{source}: {times} variants are called {name}; must be only one")
     return {variant["name"]: _laid_over(shared, variant) for variant in given}
 
 

@@ -1,6 +1,6 @@
 """Scenes as data: what is run and what is expected; read from TOML files."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import pi
@@ -59,20 +59,14 @@ class Scene(Shown):
         for key, signal in self._all_signals.items():
             with explained(f"{self.source}: {key}: "):
                 signal.check_covers(self.stop_time or 0.0)
-        for mistake in self._mistakes():
-            raise SceneError(f"{self.source}: {mistake}")
+        self._check_what_is_asked()
 
-    def _mistakes(self) -> Iterator[str]:
-        """Yield what asks for a run or for constant values in vain."""
+    def _check_what_is_asked(self) -> None:
+        """Raise SceneError for the first thing that needs a run or constant values in vain."""
         # Deviations of a drive that is tuned change with it.
         signals = {**self.signals, **self.tuning}
         changing = [n for n, s in signals.items() if len(s.times) > 1]
         changing += [name for name in DEVIATIONS if name in self.tuning]
-        if self.sweep and self.sweep.variable in changing:
-            yield (
-                f"sweep.variable = {self.sweep.variable!r}: changes in the run; must be one whose "
-                "value is constant"
-            )
         asked = [(f"expect: {one.quantity}", QUANTITIES[one.quantity]) for one in self.expect]
         in_run = [f"tuning.{name}" for name in TUNABLES if name in self.tuning]
         in_run += [key for key, quantity in asked if quantity.needs_run]
@@ -80,10 +74,13 @@ class Scene(Shown):
         needs = self.need.needs if self.need else ()
         in_run += [f"need.{name}" for name in needs if name in RUN_NEEDS]
         constant += [f"need.{name}" for name in needs if name in STEADY_NEEDS]
-        if self.run is None:
-            yield from (f"{key} needs a run: [run] is missing" for key in in_run)
+        wrong = [] if self.run else [f"{key} needs a run: [run] is missing" for key in in_run]
+        if self.sweep and self.sweep.variable in changing:
+            wrong.append(f"sweep.variable = {self.sweep.variable!r}: must be constant in the run")
         if changing:
-            yield from (f"{key} needs constant inputs and parameters" for key in constant)
+            wrong += [f"{key} needs constant inputs and parameters" for key in constant]
+        if wrong:
+            raise SceneError(f"{self.source}: {wrong[0]}")
 
     @property
     def _all_signals(self) -> dict[str, Signal]:
