@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.device.schedule import Schedule, schedule
-from slider_resonator.device.signal import steps
+from slider_resonator.device.signal import through
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
@@ -160,7 +160,7 @@ def course_of(values: Mapping[str, float], inputs: list[tuple[float, float, floa
     """Each triple of inputs for two drive periods, in steps that are no round part of them."""
     period = math.tau / values["drive_frequency"]
     phases, loads, ratios = (
-        steps([(2.0 * period * k, column[k]) for k in range(len(inputs))])
+        through([(2.0 * period * k, column[k]) for k in range(len(inputs))])
         for column in zip(*inputs, strict=True)
     )
     stop = 2.0 * period * len(inputs)

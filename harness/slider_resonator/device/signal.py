@@ -66,11 +66,6 @@ def constant(value: float) -> Signal:
     return Signal((0.0,), (value,))
 
 
-def steps(points: Sequence[tuple[float, float]]) -> Signal:
-    """Return a signal held at each (time, value) until the next."""
-    return Signal(tuple(t for t, _ in points), tuple(v for _, v in points))
-
-
-def ramp(points: Sequence[tuple[float, float]]) -> Signal:
-    """Return the polyline through the (time, value) points."""
-    return Signal(tuple(t for t, _ in points), tuple(v for _, v in points), hold=False)
+def through(points: Sequence[tuple[float, float]], *, hold: bool = True) -> Signal:
+    """Return the signal through (time, value) points: held from each to the next, or a polyline."""
+    return Signal(tuple(t for t, _ in points), tuple(v for _, v in points), hold)

@@ -12,7 +12,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.device.signal import steps
+from slider_resonator.device.signal import through
 from slider_resonator.device.units import is_number, scaled
 from slider_resonator.errors import HarnessError, explained, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
@@ -239,7 +239,7 @@ def _run(source: str, rows: Sequence[str], values: Mapping[str, Array]) -> Measu
             "device start; leave out the rows before the drive is switched on, or shift all times"
         )
     signals = {
-        name: steps(list(zip(times.tolist(), values[name].tolist(), strict=True)))
+        name: through(list(zip(times.tolist(), values[name].tolist(), strict=True)))
         for name in settable
     }
     inputs = {name: signal for name, signal in signals.items() if name in INPUTS}

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.device.signal import Signal, ramp, steps
+from slider_resonator.device.signal import Signal, through
 from slider_resonator.device.units import finite_number, scaled, si_number
 from slider_resonator.errors import explained
 
@@ -106,8 +106,7 @@ def csv_signal(path: Path, column: str, between: str, unit: str) -> Signal:
         except ValueError as error:
             raise ValueError(f"csv {path} line {line}: {error}") from error
     with explained(f"csv {path}: ", ValueError):
-        signal = steps(points) if between == "hold" else ramp(points)
-    return replace(signal, file=path)
+        return replace(through(points, hold=between == "hold"), file=path)
 
 
 def csv_number(name: str, row: Sequence[str], index: int) -> float:

@@ -11,7 +11,7 @@ from slider_resonator.device.device import DEVIATIONS, Device
 from slider_resonator.device.drive_periods import DrivePeriods, drive_periods
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule, schedule, step_count
-from slider_resonator.device.signal import Signal, constant, ramp, steps
+from slider_resonator.device.signal import Signal, constant, through
 from slider_resonator.errors import SceneError, explained, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown
@@ -343,9 +343,9 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
     with explained(f"{where}: "):
         if table.steps is not None:
-            signal = steps(table.steps)
+            signal = through(table.steps)
         elif table.ramp is not None:
-            signal = ramp(table.ramp)
+            signal = through(table.ramp, hold=False)
         elif table.csv is not None:
             unit = VARIABLES[name].unit
             signal = csv_signal(folder / table.csv, table.column or name, table.between, unit)

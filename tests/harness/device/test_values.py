@@ -15,7 +15,7 @@ from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import communication_points, schedule, step_count
-from slider_resonator.device.signal import Signal, constant, ramp, steps
+from slider_resonator.device.signal import Signal, constant, through
 from slider_resonator.device.variable import Variable
 from slider_resonator.fmu.opening import Fmu
 
@@ -106,7 +106,7 @@ def test_a_drive_may_deviate_beyond_what_a_parameter_can_say() -> None:
 
 
 def test_steps_hold_until_the_next_point() -> None:
-    signal = steps([(0.0, 1.0), (0.5, 2.0)])
+    signal = through([(0.0, 1.0), (0.5, 2.0)])
     assert [signal.at(t) for t in (-1.0, 0.0, 0.4999, 0.5, 9.0)] == [1.0, 1.0, 1.0, 2.0, 2.0]
     assert signal.jumps == (0.5,)
 
@@ -121,8 +121,8 @@ def test_a_tuned_parameter_parts_the_inputs() -> None:
     plan = schedule(
         1.0,
         0.25,
-        {"normal_preload": steps([(0.0, 1.0), (0.3, 2.0)])},
-        load=steps([(0.0, 0.1), (0.5, 0.2)]),
+        {"normal_preload": through([(0.0, 1.0), (0.3, 2.0)])},
+        load=through([(0.0, 0.1), (0.5, 0.2)]),
     )
     assert plan.times.tolist() == [0.0, 0.25, 0.3, 0.5, 0.75, 1.0]
     assert plan.changes.tolist() == [2, 3]
@@ -140,7 +140,7 @@ def test_a_tuned_parameter_parts_the_inputs() -> None:
 
 
 def test_outputs_are_read_before_and_after_a_change() -> None:
-    plan = schedule(1.0, 0.5, load=steps([(0.0, 0.1), (0.5, 0.2), (1.0, 0.3)]))
+    plan = schedule(1.0, 0.5, load=through([(0.0, 0.1), (0.5, 0.2), (1.0, 0.3)]))
     plan = replace(plan, reads_twice=True)
     before, after = 0.5, float(np.nextafter(0.5, 1.0))
     assert plan.readings().tolist() == [0.0, before, after, 1.0], "nothing is set at the stop"
@@ -155,7 +155,7 @@ def test_outputs_are_read_before_and_after_a_change() -> None:
 )
 def test_values_in_time(points: list[tuple[float, float]], times: list[float], hold: bool) -> None:
     ascending = sorted(dict(points).items())
-    signal = steps(ascending) if hold else ramp(ascending)
+    signal = through(ascending, hold=hold)
     asked = np.array(sorted([*times, *signal.times]))
     assert signal.over(asked).tolist() == [signal.at(time) for time in asked.tolist()]
 
@@ -177,14 +177,16 @@ def test_every_jump_is_a_communication_point(stop: float, step: float, jumps: li
 def test_jump_replaces_a_grid_point_just_before_it() -> None:
     """Otherwise a whole step, or a sliver of one, would hold the old value."""
     jump = 0.3 * (1.0 + 1e-12)
-    made = schedule(1.0, 0.1, load=steps([(0.0, 0.0), (jump, 5.0)]))
+    made = schedule(1.0, 0.1, load=through([(0.0, 0.0), (jump, 5.0)]))
     assert len(made.times) == 11
     assert jump in made.times
     assert made.sampled[3, 1] == 5.0
 
 
 def test_extra_readings_keep_the_held_inputs() -> None:
-    plan = schedule(1.0, 0.25, load=ramp([(0.0, 0.0), (1.0, 4.0)]), phase=constant(0.3))
+    plan = schedule(
+        1.0, 0.25, load=through([(0.0, 0.0), (1.0, 4.0)], hold=False), phase=constant(0.3)
+    )
     more = plan.read_at(np.array([0.1, 0.25 + 1e-12, 0.6]), 1e-9)
     assert more.times.tolist() == [0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 1.0]
     assert more.held() == plan.held()
@@ -193,8 +195,8 @@ def test_extra_readings_keep_the_held_inputs() -> None:
 
 def test_lines_are_held_or_have_rates_and_corners() -> None:
     signals = {
-        "load": ramp([(0.0, 0.0), (0.35, 0.7), (1.0, 0.7)]),
-        "phase": steps([(0.0, 0.2), (0.5, 0.7)]),
+        "load": through([(0.0, 0.0), (0.35, 0.7), (1.0, 0.7)], hold=False),
+        "phase": through([(0.0, 0.2), (0.5, 0.7)]),
     }
     held, lines = (schedule(1.0, 0.1, None, line, **signals) for line in (False, True))
     assert not held.ramps

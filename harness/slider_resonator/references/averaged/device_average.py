@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
@@ -56,11 +57,8 @@ def steady_velocity(device: Device, phase: float, load: float, ratio: float) -> 
     without vibration, as `fast_motion` does, and for a load that friction does not balance.
     """
     force = _vibration(device)
-    return stable_velocity(
-        lambda velocity: mean_friction(device, force, velocity, phase, ratio),
-        force.velocity_amplitude,
-        load,
-    )
+    friction = partial(mean_friction, device, force, lead=phase, ratio=ratio)
+    return stable_velocity(friction, force.velocity_amplitude, load)
 
 
 def blocking_force(device: Device, phase: float, ratio: float) -> float:
