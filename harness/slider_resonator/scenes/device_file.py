@@ -107,11 +107,7 @@ def possible_slips(
         value = table.get(name, (beside or {}).get(name, VARIABLES[name].start))
         return VARIABLES[name].in_si(value) if isinstance(value, str) else float(value)
 
-    numbers = {
-        name: value
-        for name, value in table.items()
-        if isinstance(value, float | int) and not isinstance(value, bool)
-    }
+    numbers = {name: value for name, value in table.items() if isinstance(value, float | int)}
     given = [n for n in FREQUENCIES if n in numbers and numbers[n] != VARIABLES[n].start]
     drive, resonator = map(frequency, FREQUENCIES)
     apart = any(abs(r / tau - 1.0) < 0.03 for r in (drive / resonator, resonator / drive))
