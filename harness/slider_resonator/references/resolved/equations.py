@@ -157,11 +157,11 @@ class Equations:
 
         The inputs are ``now`` at the begin of a span in s.
         """
-        ratio = max(abs(now.frequency_ratio), abs(now.later(span).frequency_ratio))
+        first, last = now.frequency_ratio, now.frequency_ratio + now.ratio_rate * span
         damping = self.damping_rate + self.coupling_damping / self.inertia
         stiffness = self.stiffness_rate + self.coupling_stiffness / self.inertia
         root = 0.5 * damping + cmath.sqrt(0.25 * damping**2 - stiffness)
-        return max(self.drive_frequency * max(1.0, ratio), abs(root))
+        return max(self.drive_frequency * max(1.0, abs(first), abs(last)), abs(root))
 
     def state_scales(self, load: float) -> Array:
         """Return characteristic sizes of the state, shape (4,), for absolute tolerances.

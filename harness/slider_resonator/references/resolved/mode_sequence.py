@@ -34,13 +34,14 @@ from slider_resonator.references.resolved.trajectory import Recorder, Trajectory
 class Segment:
     """A contact mode, to be followed for at most ``span`` s.
 
-    It obeys ``equations`` and begins under the inputs ``now``, at the angles (rad) ``theta`` of the
-    drive and ``angle`` of the normal load. The motion is sampled at ``samples`` (shape (n,),
-    ascending, within (0, span], s from its start).
+    It obeys ``equations`` and begins ``start`` s into the run, under the inputs ``now`` and at the
+    angles (rad) ``theta`` of the drive and ``angle`` of the normal load. The motion is sampled at
+    ``samples`` (shape (n,), ascending, within (0, span], s from its start).
     """
 
     equations: Equations
     mode: int
+    start: float
     state: State
     theta: float
     angle: float
@@ -104,8 +105,8 @@ class ModeSequence:
         began = inputs.start
         if not self._bends:
             self._recorder.enter(mode, began)
+        now = inputs
         while (remaining := elapsed.until(span)) > 0.0:
-            now = inputs.later(elapsed.total)
             chirp = now.ratio_rate * self._equations.drive_frequency
             contact_span = time_to_contact_change(mode == LIFTED, *self._load(now), chirp)
             result = self._pass(mode, now, min(remaining, contact_span), elapsed, inputs)
@@ -118,7 +119,7 @@ class ModeSequence:
             self._psi = advanced(self._psi, now.turned(result.duration, frequency))
             self.state = result.state
             began = inputs.start + elapsed.seconds
-            now = inputs.later(elapsed.total)
+            now = inputs.later(elapsed.total) if inputs.vary else inputs
             self._guard_progress(result.duration, began)
             if result.event:
                 mode = self._mode_after_event(mode, result.event, now)
@@ -141,6 +142,7 @@ class ModeSequence:
         segment = Segment(
             equations=self._equations,
             mode=mode,
+            start=inputs.start + elapsed.seconds,
             state=self.state,
             theta=self._theta,
             angle=self._psi + now.phase,

@@ -51,11 +51,12 @@ def follow_series(segment: Segment) -> SegmentResult:
     longest = LONGEST * frequency / equations.fastest_rate(segment.now, segment.span)
     span, times = segment.span * frequency, segment.samples * frequency
     elapsed = Elapsed()
-    theta, angle = segment.theta, segment.angle
+    now, theta, angle = segment.now, segment.theta, segment.angle
     kept = [np.empty((0, len(units)))]
     sampled = steps = event = 0
     while not event and (remaining := elapsed.until(span)) > 0.0:
-        now = segment.now.later(elapsed.total / frequency)
+        if now.vary:
+            now = segment.now.later(elapsed.total / frequency)
         series = motion_series(segment, theta, angle, now, states)
         step = min(remaining, longest, _step_of(series) if series.bends else longest)
         if not step > 0.0:

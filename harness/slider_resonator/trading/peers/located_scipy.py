@@ -71,7 +71,7 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
     time, state = 0.0, solver.y
     while solver.status == "running" and not event:
         start = time
-        take_step(solver, segment.now.start, "use a greater rtol")
+        take_step(solver, segment.start, "use a greater rtol")
         steps += 1
         dense = solver.dense_output()
         time, state = solver.t, solver.y
