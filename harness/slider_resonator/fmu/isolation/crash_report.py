@@ -31,18 +31,10 @@ _FRAME_3 = re.compile(r'File ".*[\\/](?:fmu[\\/]fmi3_slave|fmpy[\\/]fmi3)\.py", 
 _LIMIT_MISSED = "Timeout ("
 
 
-def missed_limit(trace: str, ending: Ending) -> bool:
-    """Whether a process ended itself at its time limit, or had to be ended.
-
-    While it writes the traceback of a thread that goes on it may crash.
-    """
-    if ending.over_limit:
-        return False
-    return ending.code is None or (ending.code != 0 and _LIMIT_MISSED in trace)
-
-
-def crash_report(fmu: str, printed: str, trace: str, ending: Ending, limit: float) -> str:
-    """Return a sentence on how the process of an FMU ended.
+def crash_report(
+    fmu: str, printed: str, trace: str, ending: Ending, limit: float
+) -> tuple[str, bool]:
+    """Return a sentence on how the process of an FMU ended, and whether it exceeded a limit.
 
     `fmu` is the name of its file, `printed` the end of what it wrote to standard error, `trace` the
     traceback of the call that it was in, `limit` its time limit (s).
@@ -51,6 +43,7 @@ def crash_report(fmu: str, printed: str, trace: str, ending: Ending, limit: floa
     if _FRAME_3.search(trace):
         call = in_fmi_3(call)
     where = f" in {call}" if call else ""
+    over_limit = True
     if ending.memory is not None:
         report = (
             f"{fmu} was ended: it had {ending.memory >> 20} MiB in memory; must be at most "
@@ -60,14 +53,16 @@ def crash_report(fmu: str, printed: str, trace: str, ending: Ending, limit: floa
         report = (
             f"{fmu} was ended: it had {ending.processes} processes; must be at most {MAX_PROCESSES}"
         )
-    elif missed_limit(trace, ending):
+    elif ending.code is None or (ending.code != 0 and _LIMIT_MISSED in trace):
+        # While it writes the traceback of a thread that goes on it may crash.
         report = f"no answer within the time limit of {limit:g} s{where}: {fmu} was ended"
     else:
+        over_limit = False
         end = f"exit code {ending.code}"
-        if ending.code is not None and ending.code < 0:
+        if ending.code < 0:
             end = f"signal {-ending.code}"
             with suppress(ValueError):
                 end = signal.Signals(-ending.code).name
         report = f"{fmu} crashed{where}: its process ended with {end}"
     own = " ".join(printed.split())[-MAX_PRINTED:]
-    return f"{report}; it printed: {own}" if own else report
+    return (f"{report}; it printed: {own}" if own else report), over_limit

@@ -14,7 +14,7 @@ from typing import IO, Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation import messages
-from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
+from slider_resonator.fmu.isolation.crash_report import crash_report
 from slider_resonator.fmu.isolation.supervised import Supervised
 from slider_resonator.output.files import temporary_folder
 from slider_resonator.output.progress import Progress
@@ -174,9 +174,8 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         """Return the error for a process that has ended or must be ended, and clean up."""
         self._process.wait(POLL_INTERVAL)
         ending = self._process.end()
-        trace = _last(self._folder / messages.TRACEBACK)
-        report = crash_report(self._name, _last(self._log), trace, ending, self.time_limit)
-        over = missed_limit(trace, ending) or ending.over_limit
+        printed, trace = _last(self._log), _last(self._folder / messages.TRACEBACK)
+        report, over = crash_report(self._name, printed, trace, ending, self.time_limit)
         self.kill()
         return FmuDied(report, over_limit=over)
 

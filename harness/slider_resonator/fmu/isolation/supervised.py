@@ -31,11 +31,6 @@ class Ending:
     memory: int | None = None
     processes: int | None = None
 
-    @property
-    def over_limit(self) -> bool:
-        """Whether it was ended for its memory or for its processes."""
-        return self.memory is not None or self.processes is not None
-
 
 class Supervised:
     """A running program in a session of its own, with `folder` for its temporary files.
