@@ -46,19 +46,11 @@ class Fmi3Slave:
         self._answers = c_bool(), c_bool(), c_bool(), c_double()
         self._answered: tuple[Any, ...] = tuple(byref(answer) for answer in self._answers)
         slave.instantiate(loggingOn=True, logMessage=self._receive)
+        self.component = slave.component
+        self.dll = self  # where the functions of FMI 2.0 are found
 
     def _receive(self, _: object, status: int, category: bytes, message: bytes) -> None:
         keep(self._messages, message)
-
-    @property
-    def dll(self) -> "Fmi3Slave":
-        """Where the functions of FMI 2.0 are found."""
-        return self
-
-    @property
-    def component(self) -> Any:
-        """The instance."""
-        return self._slave.component
 
     def _call(self, name: str, *arguments: Any) -> int:
         """Call a function of FMI 3.0; raises FMICallException with its name."""
