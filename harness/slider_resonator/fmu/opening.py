@@ -212,17 +212,6 @@ def check_unpacked_size(path: Path) -> None:
         )
 
 
-def root_attributes(path: Path) -> dict[str, str]:
-    """Return the attributes of the root of a model description, without reading the rest.
-
-    Raises KeyError where the archive has none; a corrupt one raises errors of zipfile, zlib, struct
-    and the parser.
-    """
-    with zipfile.ZipFile(path) as archive, archive.open("modelDescription.xml") as file:
-        _, root = next(iter(ET.iterparse(file, events=("start",))))
-        return dict(root.attrib)
-
-
 def _platform_problems(path: Path, description: ModelDescription) -> list[str]:
     # fmpy names the platforms of FMI 2.0 only.
     ours = fmpy.platform if description.fmiVersion == "2.0" else fmpy.platform_tuple

@@ -7,16 +7,17 @@ import hashlib
 import os
 import platform
 import re
+import zipfile
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import fmpy
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.opening import root_attributes
 from slider_resonator.output import html_page, markdown
 from slider_resonator.output.table import Table, texts
 
@@ -87,8 +88,13 @@ def identity_of(fmu: str | Path) -> FmuIdentity:
     guid = version = tool = digest = None
     with suppress(OSError):
         digest = digest_of(Path(fmu))
-    with suppress(Exception):  # it may have no description, or a corrupt one
-        root = root_attributes(Path(fmu))
+    # It may have no description, or a corrupt one; of any no more than the root is read.
+    with (
+        suppress(Exception),
+        zipfile.ZipFile(fmu) as archive,
+        archive.open("modelDescription.xml") as file,
+    ):
+        _, root = next(ET.iterparse(file, events=("start",)))
         guid = root.get("guid", root.get("instantiationToken"))
         version, tool = root.get("version", ""), root.get("generationTool", "")
     return FmuIdentity(str(fmu), guid, digest, version, tool)
