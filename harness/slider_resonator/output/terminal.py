@@ -84,21 +84,6 @@ def words(text: str, width: int, indent: str = "") -> str:
     return wrapped.replace(_NO_BREAK, " ")
 
 
-def aligned(table: Table) -> Iterator[Text]:
-    """Yield the rows of a small table without headings, indented, columns under each other."""
-    table = _escaped(table)
-    columns = list(zip(*table.cells, strict=True))
-    widths = [_width([cell.text for cell in cells]) for cells in columns]
-    for row in table.cells:
-        line = Text(INDENT)
-        for cell, column, width in zip(row, table.columns, widths, strict=True):
-            space = " " * (width - cell_len(cell.text))
-            line.append(space if column.numeric else "").append_text(_text(cell))
-            line.append(("" if column.numeric else space) + INDENT)
-        line.rstrip()
-        yield line
-
-
 def _fitted(table: Table, available: int) -> list[int] | None:
     """Return the width of each column, None where they do not fit."""
     full = [row for row in table.cells if len(row) == len(table.columns)]
@@ -131,7 +116,10 @@ def _longest_word(column: Column, cells: Sequence[Cell]) -> int:
 
 
 def _columns(table: Table, widths: Sequence[int]) -> rich.table.Table:
-    shown = rich.table.Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    if any(column.heading for column in table.columns):
+        shown = rich.table.Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    else:
+        shown = rich.table.Table.grid(padding=(0, BETWEEN, 0, 0))
     for column, width in zip(table.columns, widths, strict=True):
         justify: Literal["left", "right"] = "right" if column.numeric else "left"
         shown.add_column(Text(column.heading), justify=justify, min_width=width, max_width=width)
@@ -173,18 +161,14 @@ def _text(cell: Cell) -> Text:
     return Text(cell.text, STYLES[cell.style])
 
 
-def _escaped(table: Table) -> Table:
-    cells = [[Cell(escaped(cell.text), cell.style) for cell in row] for row in table.cells]
-    return Table(table.columns, cells)
-
-
 def show_table(console: Console, table: Table) -> None:
     """Print a table in the width of the console, without foreign control characters.
 
     Text is wrapped between words. Where that is not enough, each row becomes a block: the first
     cell and those without a heading on a line, all others with their headings below.
     """
-    safe = _escaped(table)
+    cells = [[Cell(escaped(cell.text), cell.style) for cell in row] for row in table.cells]
+    safe = Table(table.columns, cells)
     widths = _fitted(safe, console.width)
     for part in _blocks(safe, console.width) if widths is None else [_columns(safe, widths)]:
         console.print(part)

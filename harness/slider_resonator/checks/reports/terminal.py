@@ -11,7 +11,7 @@ from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import CALLED, near_zero, place, sentence, sizes, value_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
-from slider_resonator.output.terminal import STYLES, aligned, show_table, words
+from slider_resonator.output.terminal import STYLES, show_table, words
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_DETAILED = 3
@@ -38,9 +38,8 @@ def print_validation(
     """
     for heading, answers in () if only_failed else headline(validation.checks):
         console.print(Text(escaped(heading.text), STYLES[heading.style]))
-        table = Table([*texts(""), *numbers("", ""), *texts("")], answers)
-        for line in aligned(table):
-            console.print(line)
+        indented = [(f"  {first}", *others) for first, *others in answers]
+        show_table(console, Table([*texts(""), *numbers("", ""), *texts("")], indented))
     scenes = validation.scenes
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
         _print_overview(console, scenes)
