@@ -12,15 +12,6 @@ from uuid import uuid4
 from slider_resonator.errors import HarnessError, explained
 
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
-_KINDS = {
-    stat.S_IFDIR: "a directory",
-    stat.S_IFLNK: "a symbolic link",
-    stat.S_IFCHR: "a device",
-    stat.S_IFBLK: "a device",
-    stat.S_IFIFO: "a pipe",
-    stat.S_IFSOCK: "a socket",
-}
-"""Files that are no regular ones."""
 
 
 def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
@@ -31,14 +22,11 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
     if not text:
         raise HarnessError("'' names no file; must be the name of a file")
     path = Path(text)
-    try:
+    mode = stat.S_IFREG  # of a new file
+    with explained(f"{path}: cannot be written: ", HarnessError), suppress(FileNotFoundError):
         mode = path.lstat().st_mode
-    except FileNotFoundError:
-        mode = stat.S_IFREG
-    except OSError as error:
-        raise HarnessError(f"{path}: cannot be written: {error.strerror}") from error
     if not stat.S_ISREG(mode):
-        kind = _KINDS.get(stat.S_IFMT(mode), "no regular file")
+        kind = "a directory" if stat.S_ISDIR(mode) else "a link, a pipe or a device"
         raise HarnessError(f"{path} is {kind}; must be a regular file or a new one")
     if suffixes and path.suffix.lower() not in suffixes:
         allowed = ", ".join(suffixes)

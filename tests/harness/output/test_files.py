@@ -56,8 +56,9 @@ def test_a_write_that_fails_is_named(tmp_path: Path, target: str, written: str, 
 @pytest.mark.parametrize(
     ("target", "refused"),
     [
-        ("pipe", "is a pipe; must be a regular file"),
-        ("link", "is a symbolic link; must be a regular file"),
+        ("pipe", "is a link, a pipe or a device; must be a regular file"),
+        ("link", "is a link, a pipe or a device; must be a regular file"),
+        ("folder", "is a directory; must be a regular file"),
         ("file/out.csv", "Not a directory"),
         ("x" * 300, "name too long"),
     ],
@@ -67,6 +68,7 @@ def test_what_cannot_be_written_is_refused(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     os.mkfifo("pipe")
+    Path("folder").mkdir()
     Path("link").symlink_to("elsewhere")
     Path("file").touch()
     with pytest.raises(HarnessError, match=refused):
