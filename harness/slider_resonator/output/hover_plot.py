@@ -7,7 +7,6 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 
 from slider_resonator.output.html_page import escaped, write_page
@@ -97,8 +96,7 @@ def write_plot_page(path: Path, title: str, parts: Sequence[str]) -> None:
 @cache
 def _texts(*names: str) -> list[str]:
     """Return the texts of files of this package."""
-    folder = files("slider_resonator.output")
-    return [(folder / name).read_text(encoding="utf-8") for name in names]
+    return [(Path(__file__).parent / name).read_text(encoding="utf-8") for name in names]
 
 
 def _printable(value: object) -> object:

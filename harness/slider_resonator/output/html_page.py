@@ -5,7 +5,6 @@ import re
 from collections.abc import Sequence
 from hashlib import sha256
 from html import escape
-from importlib.resources import files
 from pathlib import Path
 
 from slider_resonator.output.files import replacing
@@ -69,7 +68,7 @@ def write_page(
     if scripts:
         digests = [base64.b64encode(sha256(one.encode()).digest()).decode() for one in scripts]
         policy += "; script-src " + " ".join(f"'sha256-{digest}'" for digest in digests)
-    own_style = (files("slider_resonator.output") / "page.css").read_text(encoding="utf-8")
+    own_style = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
     page = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width">',

@@ -12,7 +12,6 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -68,7 +67,6 @@ def save(figure: Figure, path: Path) -> None:
 
     Raises HarnessError when it cannot be written; an existing file then stays as it is.
     """
-    FigureCanvasAgg(figure)
     with style(), replacing(path) as temporary:
         figure.savefig(temporary, dpi=150)
 
@@ -79,7 +77,6 @@ def png_data_uri(figure: Figure) -> str:
 
 
 def _png(figure: Figure) -> bytes:
-    FigureCanvasAgg(figure)
     buffer = io.BytesIO()
     with style():
         figure.savefig(buffer, format="png", dpi=100)
