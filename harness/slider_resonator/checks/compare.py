@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.arrays import Array
+from slider_resonator.arrays import Array, beyond_rounding, is_same
 from slider_resonator.checks.measures import Tube, no_tube, peak, share_of
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.rounding import beyond_rounding, is_same
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.schema import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES

@@ -8,12 +8,12 @@ from contextlib import contextmanager
 from itertools import pairwise
 from math import isclose, sqrt
 
+from slider_resonator.arrays import is_same
 from slider_resonator.checks.conduct.findings import is_refused, outputs_after
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.rounding import is_same
 
 EVENT = "last_event_time"
 """The output that counts from the start time."""

@@ -6,10 +6,10 @@ from typing import TypeVar
 
 from fmpy.fmi1 import FMICallException
 
+from slider_resonator.arrays import is_same
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.rounding import is_same
 
 SMOOTH = (
     *("position", "velocity", "mean_velocity", "resonator_displacement", "resonator_velocity"),

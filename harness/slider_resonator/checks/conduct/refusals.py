@@ -11,6 +11,7 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
+from slider_resonator.arrays import is_same
 from slider_resonator.checks.conduct.findings import (
     SMOOTH,
     UNKNOWN,
@@ -25,7 +26,6 @@ from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.variable import Variable
 from slider_resonator.fmu.instance import Instance, SavedState
 from slider_resonator.fmu.run import Running
-from slider_resonator.rounding import is_same
 
 STEP = 1.7e-3
 """Size of a good step, s."""
