@@ -69,18 +69,13 @@ def print_result(
 ) -> None:
     """Print the result as JSON, with its provenance if it has one, or as lines and tables."""
     if as_json:
-        print_json(result, provenance)
+        click.echo(to_json(result, provenance))
         return
     for one in shown:
         if isinstance(one, Table):
-            print_table(one)
+            show_table(output(), one)
         else:
             print_text("\n".join(one))
-
-
-def print_json(result: Any, provenance: Any = None) -> None:
-    """Print the result, and its provenance if it has one, as one JSON document."""
-    click.echo(to_json(result, provenance))
 
 
 def print_text(text: str, *, err: bool = False) -> None:
@@ -89,8 +84,3 @@ def print_text(text: str, *, err: bool = False) -> None:
     A terminal gets lines that fit it, a file or another program gets them as they are.
     """
     click.echo(fitting(escaped(text), terminal_width(err=err)), err=err)
-
-
-def print_table(table: Table) -> None:
-    """Print a table on the console for results."""
-    show_table(output(), table)

@@ -14,7 +14,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
+from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
@@ -48,19 +48,14 @@ def bench_command(fmu: Path, repeats: int, time_limit: float, as_json: bool) -> 
             raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
         costs = measure_steps(opened.path, repeats, progress, time_limit)
     ratio, gains = short_step_ratio(costs), leap_gains(costs)
-    if as_json:
-        found = {"c_host": costs, "short_step_ratio": ratio, "leap_gains": gains}
-        print_json(found, provenance)
-        return
-    print_table(_table(costs))
-    print_text(f"A period costs {ratio:.2f} times as much in steps of one as in long steps.")
-    print_text(
+    found = {"c_host": costs, "short_step_ratio": ratio, "leap_gains": gains}
+    lines = [
+        f"A period costs {ratio:.2f} times as much in steps of one as in long steps.",
         f"Leaps over 20 s cost {gains[0]:.3g} times less than resolved motion, "
-        f"{gains[1]:.3g} times less at 35 000 rad/s."
-    )
-    print_text(
-        f"Medians of {number_of(repeats, 'repeat')} in turn; the ratios are those of the fastest."
-    )
+        f"{gains[1]:.3g} times less at 35 000 rad/s.",
+        f"Medians of {number_of(repeats, 'repeat')} in turn; the ratios are those of the fastest.",
+    ]
+    print_result(found, _table(costs), lines, as_json=as_json, provenance=provenance)
 
 
 def _table(costs: Sequence[StepCost]) -> Table:

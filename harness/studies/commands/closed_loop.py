@@ -12,7 +12,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
+from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.files import make_folder, write_csv
 from slider_resonator.output.progress import counted, part_of, progress_bar
 from slider_resonator.output.readable import one_line
@@ -97,12 +97,11 @@ def closed_loop_command(
     draw_loop(records[0], records[1], duty, first, out / "closed_loop.png", title)
     _write_csv(out / "closed_loop.csv", records, duty)
     passed = all(h.passed for h in held) and all(a.passed for a in agreements)
-    if as_json:
-        facts = {"passed": passed, "package": str(package), "duty": duty}
-        print_json({**facts, "held": held, "agreements": agreements}, provenance)
-    else:
-        _print(held, agreements)
-        print_text(f"written  {one_line(f'{out}/closed_loop.png, {out}/closed_loop.csv')}")
+    facts = {"passed": passed, "package": str(package), "duty": duty}
+    found = {**facts, "held": held, "agreements": agreements}
+    written = [f"written  {one_line(f'{out}/closed_loop.png, {out}/closed_loop.csv')}"]
+    tables = (_hold_table(held), _agreement_table(agreements))
+    print_result(found, *tables, written, as_json=as_json, provenance=provenance)
     context.exit(0 if passed else 1)
 
 
@@ -117,7 +116,7 @@ def _write_csv(path: Path, records: Sequence[LoopRecord], duty: Duty) -> None:
     write_csv(path, header, zip(*(column.tolist() for column in columns), strict=True))
 
 
-def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> None:
+def _hold_table(held: Sequence[IntervalResult]) -> Table:
     holds: list[Row] = [
         (
             *(entry.host, str(entry.fidelity), f"{entry.start:g}", f"{1e3 * entry.load:g}"),
@@ -126,7 +125,10 @@ def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> N
         )
         for entry in held
     ]
-    print_table(Table(HOLD_COLUMNS, holds))
+    return Table(HOLD_COLUMNS, holds)
+
+
+def _agreement_table(agreements: Sequence[Agreement]) -> Table:
     differences: list[Row] = [
         (
             *(entry.host, f"{entry.start:g}", f"{1e3 * entry.load:g}"),
@@ -135,7 +137,7 @@ def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> N
         )
         for entry in agreements
     ]
-    print_table(Table(AGREEMENT_COLUMNS, differences))
+    return Table(AGREEMENT_COLUMNS, differences)
 
 
 def _predicted(agreement: Agreement) -> str:

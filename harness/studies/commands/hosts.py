@@ -1,6 +1,6 @@
 """`hosts`: run table 1 in other simulators and write the table of docs/hosts.md."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import click
@@ -16,7 +16,7 @@ from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output import markdown
-from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
+from slider_resonator.output.console import noting_on_interrupt, print_result, print_text
 from slider_resonator.output.files import write_marked
 from slider_resonator.output.progress import counted, progress_bar
 from slider_resonator.output.table import Table, texts, verdict
@@ -110,10 +110,8 @@ def hosts_command(
         print_text(f"not run: {host.name}: {reason}", err=True)
     if out is not None:
         write_marked(out, markdown.rendered(host_table(results)), BEGIN, END)
-    if as_json:
-        print_json([_entry(result) for result in results], provenance)
-    else:
-        _print(results)
+    entries = [_entry(result) for result in results]
+    print_result(entries, *_shown(results), as_json=as_json, provenance=provenance)
     context.exit(0 if all(result.passed for result in results) else 1)
 
 
@@ -138,12 +136,13 @@ def _entry(result: HostResult) -> dict[str, object]:
     return entry | {"passed": result.passed, "cases": cases}
 
 
-def _print(results: Sequence[HostResult]) -> None:
+def _shown(results: Sequence[HostResult]) -> Iterator[Table | list[str]]:
+    """Yield the table, and what went wrong in a line each."""
     table = host_table(results)
     rows = [(*row, verdict(result.passed)) for row, result in zip(table.rows, results, strict=True)]
-    print_table(Table([*table.columns, *texts("")], rows))
+    yield Table([*table.columns, *texts("")], rows)
     for result in results:
         for case, comparison in result.comparisons.items():
             if comparison.error:
                 where = f"{result.host}, {result.fmu} FMU, {case.title}"
-                print_text(f"{where}: {comparison.error}")
+                yield [f"{where}: {comparison.error}"]

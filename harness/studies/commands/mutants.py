@@ -18,7 +18,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, output, print_json
+from slider_resonator.output.console import noting_on_interrupt, output, print_result
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.scenes.scene_files import find_scenes
 from studies.mutants.archive import read_python_fmu
@@ -150,7 +150,7 @@ def mutants_command(
         judge, min_rate = partial(run_mutants, path, original, mutants, len(made)), MIN_RATE
     if only_list:
         if as_json:
-            print_json(listed)
+            print_result(listed, as_json=True)
         else:
             print_variants(output(), changes if native else mutants)
         return
@@ -159,7 +159,8 @@ def mutants_command(
         judging = Judging(find_scenes(scenes), jobs, time_limit, journal, progress)
         run: MutationRun[Any] = judge(judging)
     if as_json:
-        print_json(changes_as_plain(run) if native else mutants_as_plain(run), provenance)
+        result = changes_as_plain(run) if native else mutants_as_plain(run)
+        print_result(result, as_json=True, provenance=provenance)
     else:
         print_run(output(), run)
     enough = run.rate is None or run.rate >= min_rate
