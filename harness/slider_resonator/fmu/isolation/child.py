@@ -46,11 +46,7 @@ def main() -> None:
     # Not with what the FMU prints, which may be endless, or look like a traceback.
     trace = (folder / messages.TRACEBACK).open("w", encoding="utf-8")
     faulthandler.enable(trace)
-
-    def begin() -> None:
-        faulthandler.dump_traceback_later(limit, exit=True, file=trace)
-        _send(answers, messages.Started())
-
+    begin = partial(faulthandler.dump_traceback_later, limit, exit=True, file=trace)
     try:
         with ExitStack() as stack:
             fmu = stack.enter_context(open_fmu(path)) if path else None

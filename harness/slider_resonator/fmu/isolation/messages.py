@@ -10,11 +10,6 @@ from typing import Any
 
 
 @dataclass(frozen=True)
-class Started:
-    """Calls of the FMU begin: what they need has been loaded."""
-
-
-@dataclass(frozen=True)
 class Progress:
     """What the present task does, empty where that has no name, and its share done, 0 to 1."""
 
@@ -43,5 +38,5 @@ class Outcome:
 TRACEBACK = "traceback.txt"
 """File in the folder of the process with the calls that the FMU was in at its end."""
 Request = tuple[Callable[..., Any], bool]
-Message = Started | Progress | Outcome
+Message = Progress | Outcome
 """A message from the process of the FMU."""

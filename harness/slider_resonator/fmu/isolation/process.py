@@ -23,11 +23,11 @@ PRINTED = "printed.txt"
 """File with what the FMU has printed."""
 TIME_LIMIT = 120.0
 """Default time limit of a task, s; the slowest built-in scene takes a few."""
-LOADING = 60.0
-"""Longest time (s) in which Python and the modules of a task must be loaded, also on a busy
-machine."""
-GRACE = 2.0
-"""Seconds beyond the time limit after which a process that did not end itself is killed."""
+GRACE = 60.0
+"""Seconds beyond the time limit after which a process that did not end itself is killed.
+
+Before the limit begins, Python and the modules of a task are loaded, also on a busy machine.
+"""
 POLL_INTERVAL = 0.5
 """Interval (s) at which the process is polled."""
 MAX_READ = 2**16
@@ -121,17 +121,27 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         return answer.result()
 
     def _answer(self, progress: Progress | None = None) -> messages.Outcome:
-        """Wait for the answer to a request; FmuDied as `run`."""
-        deadline = monotonic() + LOADING
-        while True:
-            match self._receive(deadline):
-                case messages.Started():
-                    deadline = monotonic() + self.time_limit + GRACE
-                case messages.Progress(label, share):
-                    if progress is not None:
-                        progress(label, share)
-                case answer:
-                    return answer
+        """Wait for the answer to a request; FmuDied as `run`.
+
+        Does not rely on the end of the pipe, which a child may hold.
+        """
+        deadline = monotonic() + self.time_limit + GRACE
+        while not self._stop.is_set():
+            ended = self._process.poll()
+            left = deadline - monotonic()
+            try:
+                message = self._messages.get(timeout=max(0.0, min(POLL_INTERVAL, left)))
+            except queue.Empty:
+                if ended or left <= 0.0:
+                    raise self._died() from None
+                continue
+            if message is None:
+                raise self._died()
+            if isinstance(message, messages.Outcome):
+                return message
+            if progress is not None:
+                progress(message.label, message.share)
+        raise FmuDied("the process of the FMU has been stopped")
 
     def close(self) -> None:
         """Free the FMU and end its process; FmuDied when it crashes or hangs meanwhile."""
@@ -151,24 +161,6 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         if not self._killed:
             self._killed = True
             self._resources.close()
-
-    def _receive(self, deadline: float) -> messages.Message:
-        """Return the next message; does not rely on the end of the pipe, which a child may hold."""
-        while True:
-            if self._stop.is_set():
-                self.kill()
-                raise FmuDied("the process of the FMU has been stopped")
-            ended = self._process.poll()
-            left = deadline - monotonic()
-            try:
-                message = self._messages.get(timeout=max(0.0, min(POLL_INTERVAL, left)))
-            except queue.Empty:
-                if ended or left <= 0.0:
-                    raise self._died() from None
-            else:
-                if message is None:
-                    raise self._died()
-                return message
 
     def _died(self) -> FmuDied:
         """Return the error for a process that has ended or must be ended, and clean up."""
