@@ -10,7 +10,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.fmu.instance import Block, Instance
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.shown import Shown, Tabular
@@ -121,7 +121,7 @@ class Running:
         self._schedule = schedule
         self._times = schedule.times.tolist()
         self._changes = set(schedule.changes.tolist())
-        self._block: Block | None = None
+        self._block = instance.block(self.outputs)
         self._names = (*INPUTS, *schedule.tuning)
         self.first = self.values_at(0)
 
@@ -146,8 +146,6 @@ class Running:
 
     def read(self) -> None:
         """Read the outputs into a new row."""
-        if self._block is None:
-            self._block = self.instance.block(self.outputs)
         self.rows.append(self._block.read())
 
     def step_size(self, step: int) -> float:
