@@ -266,12 +266,12 @@ def isolated(
         def run(label: str, tasks: Sequence[Task]) -> list[Any]:
             results = []
             progress(counted(label, 0, len(tasks)), 0.0)
-            for _, outcome in run_all_tasks(processes, list(enumerate(tasks)), outcomes=(FmuDied,)):
+            for _, outcome in run_all_tasks(processes, list(enumerate(tasks))):
                 if isinstance(outcome.error, FmuDied):
                     raise FmuError(
                         f"{label}: {outcome.error}{limit if outcome.error.over_limit else ''}"
                     )
-                results.append(outcome.value)
+                results.append(outcome.result())
                 progress(counted(label, len(results), len(tasks)), len(results) / len(tasks))
             return results
 

@@ -220,11 +220,13 @@ def run_cases(
     tasks = [(case, partial(observe, case=case)) for case in chosen]
     try:
         with LocalProcesses(fmu, time_limit, jobs) as processes:
-            for case, outcome in run_all_tasks(processes, tasks, outcomes=(FmuDied,)):
+            for case, outcome in run_all_tasks(processes, tasks):
                 done, label = len(verdicts), case.value if case.is_random else case.axis
                 progress(counted(f"{fmu.name}: {label}", done, len(chosen)), done / len(chosen))
-                died = outcome.error and verdict_on(case, FAILED, str(outcome.error))
-                verdicts.append(died or judge(case, outcome.value))
+                if isinstance(outcome.error, FmuDied):
+                    verdicts.append(verdict_on(case, FAILED, str(outcome.error)))
+                else:
+                    verdicts.append(judge(case, outcome.result()))
     except BaseException:
         if verdicts:
             keep(result())

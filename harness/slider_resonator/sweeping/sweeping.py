@@ -229,7 +229,7 @@ def run_points(processes: Processes, task: Task, points: Sequence[Point], keep: 
     batches = (partial(prove_points, task=task, points=points[n : n + BATCH]) for n in starts)
     begun = [*(measuring(point, {}) for point in first), *islice(batches, QUEUED * processes.count)]
     queue = deque(((work, 1), work) for work in begun)
-    for (work, attempt), outcome in run_all_tasks(processes, queue, outcomes=(HarnessError,)):
+    for (work, attempt), outcome in run_all_tasks(processes, queue):
         error = outcome.error
         if isinstance(error, FmuDied) and not error.over_limit and attempt < ATTEMPTS:
             queue.append(((work, attempt + 1), work))  # others may be at fault

@@ -51,8 +51,8 @@ class LocalProcesses(AbstractContextManager["LocalProcesses"]):
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         """End all processes, at once after an error."""
         try:
-            if error is None and (died := self.close()):
-                raise died
+            if error is None:
+                self.close()
         finally:
             self.end()
 
@@ -83,16 +83,11 @@ class LocalProcesses(AbstractContextManager["LocalProcesses"]):
         self._idle.append(process)
         return Outcome(value)
 
-    def close(self) -> FmuDied | None:
-        """Free the FMU in each process and end them; return the first error thereby."""
+    def close(self) -> None:
+        """Free the FMU in each process and end it; FmuDied where that fails."""
         self._threads.shutdown()
-        first = None
         while self._idle:
-            try:
-                self._idle.pop().close()
-            except FmuDied as error:
-                first = first or error
-        return first
+            self._idle.pop().close()
 
     def end(self) -> None:
         """End all processes, also in the middle of a task."""
@@ -125,61 +120,40 @@ def run_tasks(
     crashes. An outcome without an item has an error of the FMU as a whole.
     """
     crashed, finished = set[str](), set[str]()
-    processes = LocalProcesses(fmu, time_limit, jobs)
     try:
-        for item, outcome in _outcomes(processes, tasks, lambda item: name(item) in crashed):
-            if not outcome.is_open:
-                yield None, outcome
-                return
-            yield item, outcome
-            finished.add(name(item))
-            if not isinstance(outcome.error, FmuDied):
-                continue
-            crashed.add(name(item))
-            if len(crashed) >= MAX_CRASHES or outcome.error.over_limit:
-                names = dict.fromkeys(name(one) for one, _ in tasks)
-                if not_run := [one for one in names if one not in finished]:
-                    many = "1 crash or exceeded limit"
-                    if len(crashed) > 1:
-                        many = f"{len(crashed)} crashes or exceeded limits"
-                    text = f"given up after {many}; not run: {', '.join(not_run)}"
-                    yield None, Outcome(error=FmuError(text))
-                return
-        if error := processes.close():
-            yield None, Outcome(error=error)
-    finally:
-        processes.end()
+        with LocalProcesses(fmu, time_limit, jobs) as processes:
+            for item, outcome in run_all_tasks(processes, tasks, lambda one: name(one) in crashed):
+                yield item, outcome
+                finished.add(name(item))
+                if not isinstance(outcome.error, FmuDied):
+                    continue
+                crashed.add(name(item))
+                if len(crashed) >= MAX_CRASHES or outcome.error.over_limit:
+                    processes.end()
+                    names = dict.fromkeys(name(one) for one, _ in tasks)
+                    if not_run := [one for one in names if one not in finished]:
+                        many = "1 crash or exceeded limit"
+                        if len(crashed) > 1:
+                            many = f"{len(crashed)} crashes or exceeded limits"
+                        raise FmuError(f"given up after {many}; not run: {', '.join(not_run)}")
+                    return
+    except FmuError as error:
+        yield None, Outcome(error=error)
 
 
 def run_all_tasks(
     processes: Processes,
     tasks: Sequence[tuple[Item, Task]],
-    *,
-    outcomes: tuple[type[HarnessError], ...],
+    is_left_out: Callable[[Item], bool] = lambda item: False,
 ) -> Iterator[tuple[Item, Outcome]]:
     """Run a task for each item, however many crash; yield item and outcome, in this order.
 
-    A deque of `tasks` is emptied, and may get more of them while outcomes are taken.
-    Errors that are among the `outcomes` of a task are yielded, others raised: FmuError when the FMU
-    cannot be run at all.
-    """
-    for item, outcome in _outcomes(processes, tasks):
-        error = outcome.error
-        if error is not None and not (outcome.is_open and isinstance(error, outcomes)):
-            raise error
-        yield item, outcome
+    A deque of `tasks` is emptied, and may get more of them while outcomes are taken. Items that are
+    left out by then are not run. Raises FmuError when the FMU cannot be opened.
 
-
-def _outcomes(
-    processes: Processes,
-    tasks: Sequence[tuple[Item, Task]],
-    is_left_out: Callable[[Item], bool] = lambda item: False,
-) -> Iterator[tuple[Item, Outcome]]:
-    """Yield item and outcome of each task, in this order, but of items that are left out.
-
-    The first task shows whether the FMU can be opened; from then on there are `QUEUED` tasks for
-    each process. The outcomes do not depend on their number, for an FMU in which each run is
-    independent of those before. The last outcome is that of an FMU that cannot be opened.
+    The first task shows whether it can; from then on there are `QUEUED` tasks for each process. The
+    outcomes do not depend on their number, for an FMU in which each run is independent of those
+    before.
     """
     waiting = tasks if isinstance(tasks, deque) else deque(tasks)
     submitted: deque[tuple[Item, Task, Future[Outcome]]] = deque()
@@ -200,7 +174,7 @@ def _outcomes(
             count = 1
             wait(other for _, _, other in submitted)
             outcome = processes.outcome(processes.submit(task))
-        yield item, outcome
         if not outcome.is_open:
-            return
+            outcome.result()  # which is an error
+        yield item, outcome
         has_opened = True
