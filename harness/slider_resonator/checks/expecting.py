@@ -143,13 +143,13 @@ class ExpectedValues(AbstractContextManager["ExpectedValues"]):
 
         Raises HarnessError where a process that computes them has ended.
         """
-        outcome = self._values[point].result()
-        if isinstance(outcome.error, FmuDied):
+        try:
+            values: list[Any] = self._values[point].result().result()
+        except FmuDied as error:
             raise HarnessError(
                 f"scene {point.scene.name}: the process that computes its references has ended: "
-                f"{outcome.error}"
-            )
-        values: list[Any] = outcome.result()
+                f"{error}"
+            ) from error
         return values
 
 

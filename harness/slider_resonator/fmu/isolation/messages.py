@@ -19,14 +19,10 @@ class Progress:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The `value` of a task or the `error` in its place; neither once the FMU is open.
-
-    `is_open` is False where the FMU could not be opened for the task.
-    """
+    """The `value` of a task or the `error` in its place; neither once the FMU is open."""
 
     value: Any = None
     error: Exception | None = None
-    is_open: bool = True
 
     def result(self) -> Any:
         """Return the value, or raise the error."""

@@ -30,7 +30,7 @@ class Processes(Protocol):
         """Begin to run a task, or queue it."""
 
     def outcome(self, future: Future[Outcome]) -> Outcome:
-        """Wait for the outcome of a task; HarnessError where no more can be run."""
+        """Wait for the outcome of a task; FmuError where the FMU cannot be opened for it."""
 
 
 class LocalProcesses(AbstractContextManager["LocalProcesses"]):
@@ -61,18 +61,18 @@ class LocalProcesses(AbstractContextManager["LocalProcesses"]):
         return self._threads.submit(self.run, task)
 
     def outcome(self, future: Future[Outcome]) -> Outcome:
-        """Wait for the outcome of a task."""
+        """Wait for the outcome of a task; raises as `run` does."""
         return future.result()
 
     def run(self, task: Task) -> Outcome:
-        """Run a task; after an error its process is ended: the FMU may be in any state."""
+        """Run a task; after an error its process is ended: the FMU may be in any state.
+
+        Raises FmuError where the FMU cannot be opened.
+        """
         try:
             process = self._idle.pop()
         except IndexError:
-            try:
-                process = IsolatedFmu(self._fmu, self._time_limit, self._stop)
-            except FmuError as error:
-                return Outcome(error=error, is_open=False)
+            process = IsolatedFmu(self._fmu, self._time_limit, self._stop)
         try:
             value = process.run(task)
         except BaseException as error:
@@ -169,12 +169,13 @@ def run_all_tasks(
         if is_left_out(item):
             future.cancel()
             continue
-        outcome = processes.outcome(future)
-        if has_opened and not outcome.is_open:  # it may run in fewer processes only
-            count = 1
+        try:
+            outcome = processes.outcome(future)
+        except FmuError:
+            if not has_opened:
+                raise
+            count = 1  # it may run in fewer processes only
             wait(other for _, _, other in submitted)
             outcome = processes.outcome(processes.submit(task))
-        if not outcome.is_open:
-            outcome.result()  # which is an error
         yield item, outcome
         has_opened = True
