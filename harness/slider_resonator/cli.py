@@ -130,14 +130,7 @@ class HarnessGroup(click.Group):
         with formatter.section("Commands"):
             formatter.write_dl(list(self.summaries.items()))
 
-    def main(
-        self,
-        args: Sequence[str] | None = None,
-        prog_name: str | None = None,
-        complete_var: str | None = None,
-        standalone_mode: bool = True,
-        **extra: Any,
-    ) -> NoReturn:
+    def main(self, args: Sequence[str] | None = None, *others: Any, **extra: Any) -> NoReturn:
         """Run a command and exit with its code; with --json report an error as JSON too."""
         arguments = list(sys.argv[1:] if args is None else args)
         open_closed_streams()
@@ -146,7 +139,7 @@ class HarnessGroup(click.Group):
             # As for Ctrl-C: the processes of FMUs must be ended and temporary files removed.
             signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:
-            code = super().main(arguments, prog_name, complete_var, standalone_mode=False, **extra)
+            code = super().main(arguments, *others, **{**extra, "standalone_mode": False})
         except SystemExit as end:  # click and rich exit with 1 when their output is a closed pipe
             exit_with(COULD_NOT_RUN if end.code else 0)
         except Exception as error:
