@@ -162,10 +162,11 @@ ROUNDING = 1e-6
 MARGIN = 0.06
 
 
-def range_after_start(times: Array, *curves: Array) -> tuple[float, float] | None:
+def range_after_start(times: Array, *curves: Array) -> tuple[tuple[float, float] | None, str]:
     """Return the range of curves after a start that is far outside it, with 0 and a margin.
 
-    `times` and curves have shape (n,). None where the start is not far outside.
+    `times` and curves have shape (n,). Return also what the plot says then; None and "" where the
+    start is not far outside.
     """
     later = times >= times[0] + START * (times[-1] - times[0])
     values = np.array(curves)
@@ -173,17 +174,15 @@ def range_after_start(times: Array, *curves: Array) -> tuple[float, float] | Non
     low, high = min(0.0, np.min(values[:, later])), max(0.0, np.max(values[:, later]))
     width = high - low
     far = max(highest - high, low - lowest) > FAR * width > FAR * ROUNDING * (highest - lowest)
-    return (low - MARGIN * width, high + MARGIN * width) if far else None
-
-
-def words_for_start(*curves: Array) -> str:
-    """Return what a plot says whose range leaves out the start of curves."""
-    return f"start beyond the axis: {np.min(curves):.3g} to {np.max(curves):.3g}"
+    if not far:
+        return None, ""
+    words = f"start beyond the axis: {np.min(values):.3g} to {np.max(values):.3g}"
+    return (low - MARGIN * width, high + MARGIN * width), words
 
 
 def limit_to_later(axes: Axes, times: Array, *curves: Array) -> None:
     """Let what follows a start far outside set the axis of y, and say so above the plot."""
-    found = range_after_start(times, *curves)
+    found, words = range_after_start(times, *curves)
     if found is not None:
         axes.set_ylim(found)
-        axes.set_title(words_for_start(*curves), loc="right", fontsize=8, pad=2.0)
+        axes.set_title(words, loc="right", fontsize=8, pad=2.0)

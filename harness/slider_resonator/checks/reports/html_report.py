@@ -14,7 +14,7 @@ from slider_resonator.device.interface import SETTABLE
 from slider_resonator.fmu.provenance import provenance_html
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html, write_plot_page
 from slider_resonator.output.html_page import escaped, folded, rendered, section
-from slider_resonator.output.plot_style import range_after_start, words_for_start
+from slider_resonator.output.plot_style import range_after_start
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -126,11 +126,10 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
 
 def _of_signals(curves: Curves, where: str) -> list[HoverPlot]:
     times, fmu, reference = curves.times, curves.fmu, curves.reference
-    shown = range_after_start(times, fmu, reference)
+    shown, words = range_after_start(times, fmu, reference)
     name = curves.check.quantity.replace("_", " ")
     return _overlay(
-        f"{name}: FMU on reference{where}"
-        + (f"; {words_for_start(fmu, reference)}" if shown else ""),
+        f"{name}: FMU on reference{where}" + (f"; {words}" if words else ""),
         Axis("time [s]"),
         Axis(_label(curves.check.quantity, curves.check.unit), range=shown),
         *(times.tolist(), fmu.tolist(), reference.tolist()),
