@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.messages import Outcome
+from slider_resonator.fmu.isolation.process import Outcome
 from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.scenes.scene import Scene, ScenePoint

@@ -12,8 +12,7 @@ from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlug
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.messages import Outcome
-from slider_resonator.fmu.isolation.process import FmuDied, Task
+from slider_resonator.fmu.isolation.process import FmuDied, Outcome, Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses
 
 CONNECT_SECONDS = 30

@@ -11,7 +11,7 @@ from slider_resonator.checks.compare import Comparison, compare
 from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.fmu.isolation.messages import Outcome
+from slider_resonator.fmu.isolation.process import Outcome
 from slider_resonator.scenes.scene import ScenePoint
 
 NEGLIGIBLE = 0.01

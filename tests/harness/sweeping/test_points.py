@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.messages import Outcome
+from slider_resonator.fmu.isolation.process import Outcome
 from slider_resonator.fmu.isolation.tasks import QUEUED, LocalProcesses
 from slider_resonator.steady.searches import find_steady
 from slider_resonator.sweeping import sweeping

@@ -19,7 +19,7 @@ from typing import BinaryIO
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.isolation import messages
+from slider_resonator.fmu.isolation.process import TRACEBACK, Done, Outcome, Request
 from slider_resonator.fmu.limits import MAX_WRITTEN
 from slider_resonator.fmu.opening import open_fmu
 
@@ -44,7 +44,7 @@ def main() -> None:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_WRITTEN, MAX_WRITTEN))
     # Not with what the FMU prints, which may be endless, or look like a traceback.
-    trace = (folder / messages.TRACEBACK).open("w", encoding="utf-8")
+    trace = (folder / TRACEBACK).open("w", encoding="utf-8")
     faulthandler.enable(trace)
     begin = partial(faulthandler.dump_traceback_later, limit, exit=True, file=trace)
     try:
@@ -55,34 +55,32 @@ def main() -> None:
             begin()
             instance = stack.enter_context(instantiate(fmu)) if fmu is not None else None
             faulthandler.cancel_dump_traceback_later()
-            _send(answers, messages.Outcome())
+            _send(answers, Outcome())
             with suppress(EOFError):  # there are no more requests
                 while True:
-                    request: messages.Request = pickle.load(requests)
+                    request: Request = pickle.load(requests)
                     begin()
                     message = _run(instance, request, answers)
                     faulthandler.cancel_dump_traceback_later()
                     _send(answers, message)
             begin()
     except HarnessError as error:
-        _send(answers, messages.Outcome(error=error))
+        _send(answers, Outcome(error=error))
 
 
-def _run(
-    instance: Instance | None, request: messages.Request, answers: BinaryIO
-) -> messages.Message:
+def _run(instance: Instance | None, request: Request, answers: BinaryIO) -> Outcome:
     task, reports_progress = request
     if reports_progress:
-        task = partial(task, progress=lambda *done: _send(answers, messages.Progress(*done)))
+        task = partial(task, progress=lambda *done: _send(answers, Done(*done)))
     try:
-        return messages.Outcome(task(instance))
+        return Outcome(task(instance))
     except HarnessError as error:
-        return messages.Outcome(error=error)
+        return Outcome(error=error)
     except Exception:
         return _internal()
 
 
-def _send(answers: BinaryIO, message: messages.Message) -> None:
+def _send(answers: BinaryIO, message: Done | Outcome) -> None:
     try:
         content = pickle.dumps(message)
     except Exception:  # pickle raises anything
@@ -91,11 +89,11 @@ def _send(answers: BinaryIO, message: messages.Message) -> None:
     answers.flush()
 
 
-def _internal() -> messages.Outcome:
+def _internal() -> Outcome:
     """Return the outcome of a task that raised an unexpected exception, a programming error."""
     trace = traceback.format_exc()
     error = RuntimeError(f"a task failed in the process of the FMU:\n{trace}")
-    return messages.Outcome(error=error)
+    return Outcome(error=error)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,12 @@ import sys
 import threading
 from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 from typing import IO, Any
 
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.isolation import messages
 from slider_resonator.fmu.isolation.crash_report import crash_report
 from slider_resonator.fmu.isolation.supervised import Supervised
 from slider_resonator.output.files import temporary_folder
@@ -21,6 +21,8 @@ from slider_resonator.output.progress import Progress
 
 PRINTED = "printed.txt"
 """File with what the FMU has printed."""
+TRACEBACK = "traceback.txt"
+"""File in the folder of the process with the calls that the FMU was in at its end."""
 TIME_LIMIT = 120.0
 """Default time limit of a task, s; the slowest built-in scene takes a few."""
 GRACE = 60.0
@@ -37,6 +39,30 @@ Task = Callable[..., Any]
 """A picklable function, called as `task(instance)` in the process of the FMU; one that reports
 progress, as `task(instance, progress=report)`, where `report(label, share)` sends what it does and
 the share done."""
+Request = tuple[Task, bool]
+"""A task, and whether it reports progress; sent pickled, as is the answer."""
+
+
+@dataclass(frozen=True)
+class Done:
+    """What the present task does, empty where that has no name, and its share done, 0 to 1."""
+
+    label: str
+    share: float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The `value` of a task or the `error` in its place; neither once the FMU is open."""
+
+    value: Any = None
+    error: Exception | None = None
+
+    def result(self) -> Any:
+        """Return the value, or raise the error."""
+        if self.error is not None:
+            raise self.error
+        return self.value
 
 
 class FmuDied(FmuError):
@@ -87,7 +113,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
             self._resources.enter_context(suppress(OSError))  # it has closed its end of the pipe
             self._requests = self._resources.enter_context(requests)
             self._resources.callback(self._process.end)
-            self._messages: queue.SimpleQueue[messages.Message | None] = queue.SimpleQueue()
+            self._messages: queue.SimpleQueue[Done | Outcome | None] = queue.SimpleQueue()
             threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
             self._answer().result()
         except BaseException:
@@ -120,7 +146,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
             raise
         return answer.result()
 
-    def _answer(self, progress: Progress | None = None) -> messages.Outcome:
+    def _answer(self, progress: Progress | None = None) -> Outcome:
         """Wait for the answer to a request; FmuDied as `run`.
 
         Does not rely on the end of the pipe, which a child may hold.
@@ -137,7 +163,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
                 continue
             if message is None:
                 raise self._died()
-            if isinstance(message, messages.Outcome):
+            if isinstance(message, Outcome):
                 return message
             if progress is not None:
                 progress(message.label, message.share)
@@ -166,7 +192,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         """Return the error for a process that has ended or must be ended, and clean up."""
         self._process.wait(POLL_INTERVAL)
         ending = self._process.end()
-        printed, trace = _last(self._log), _last(self._folder / messages.TRACEBACK)
+        printed, trace = _last(self._log), _last(self._folder / TRACEBACK)
         report, over = crash_report(self._name, printed, trace, ending, self.time_limit)
         self.kill()
         return FmuDied(report, over_limit=over)
@@ -188,7 +214,7 @@ def _last(file: Path) -> str:
         return ""
 
 
-def _collect(file: IO[bytes], received: "queue.SimpleQueue[messages.Message | None]") -> None:
+def _collect(file: IO[bytes], received: "queue.SimpleQueue[Done | Outcome | None]") -> None:
     """Pass messages on, and None after the last or the first that is none."""
     with file:
         while True:
@@ -196,7 +222,7 @@ def _collect(file: IO[bytes], received: "queue.SimpleQueue[messages.Message | No
                 message = pickle.load(file)
             except Exception:  # an FMU that writes into the pipe makes pickle raise anything
                 break
-            if not isinstance(message, messages.Message):
+            if not isinstance(message, Done | Outcome):
                 break
             received.put(message)
     received.put(None)

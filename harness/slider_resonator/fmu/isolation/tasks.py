@@ -10,8 +10,7 @@ from threading import Event
 from typing import Protocol, TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.fmu.isolation.messages import Outcome
-from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Outcome, Task
 
 
 def available_cores() -> int:

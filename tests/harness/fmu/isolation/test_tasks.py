@@ -12,8 +12,7 @@ import pytest
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation import tasks
-from slider_resonator.fmu.isolation.messages import Outcome
-from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Outcome
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks, run_tasks
 from tests.harness.fmu.isolation.tasks_of_tests import (
     abort,
