@@ -70,7 +70,7 @@ class Block:
         self._set()
 
     def write_rates(self, rates: Sequence[float]) -> None:
-        """Set the first derivatives of the variables, which are inputs."""
+        """Set the first derivatives of inputs, of an FMU with `canInterpolateInputs`."""
         self._values[:] = list(rates)
         self._set_rates()
 
@@ -84,12 +84,13 @@ class Instance:
 
     Raises FmuError when the FMU cannot be instantiated. `start` raises Refusal with the message of
     the FMU when a call fails; the other methods, which are called millions of times, do so inside
-    an `explained` block. Must be freed with `end`. `warned` is the name of the last call that was
-    answered with a warning.
+    an `explained` block. Must be freed with `end`. `inputs` are phase (rad), load (N) and
+    frequency_ratio; `warned` is the name of the last call that was answered with a warning.
     """
 
     slave: FMU2Slave | Fmi3Slave
     messages: list[str]
+    inputs: Block
     warned: str
 
     def __init__(self, fmu: Fmu) -> None:
@@ -131,7 +132,7 @@ class Instance:
         self._block = cache(partial(Block, self))
         self._settable = cache(partial(self._plan, self.fmu.settable))
         self._readable = cache(partial(self._plan, self.fmu.variable))
-        self._inputs = self.block(list(INPUTS))
+        self.inputs = self.block(list(INPUTS))
 
     def call(self, name: str, *arguments: Any) -> None:
         """Call a function of FMI 2.0 by its name, without fmpy's overhead; raises FMICallException.
@@ -225,17 +226,6 @@ class Instance:
                 f"this needs steps from {np.min(steps):.6g} s to {np.max(steps):.6g} s; must be "
                 "one size for the whole run"
             )
-
-    def set_inputs(self, values: Sequence[float]) -> None:
-        """Set phase (rad), load (N), frequency_ratio."""
-        self._inputs.write(values)
-
-    def set_input_rates(self, values: Sequence[float]) -> None:
-        """Set the derivatives of phase (rad/s), load (N/s), frequency_ratio (1/s).
-
-        Only for an FMU with `canInterpolateInputs`.
-        """
-        self._inputs.write_rates(values)
 
     def step_to(self, target: float) -> None:
         """Advance to `target` (s)."""

@@ -161,15 +161,15 @@ class Running:
         """Set what changes, read where the schedule says so, call `before`, step and read."""
         schedule = self._schedule
         if step in self._changes:
-            self.instance.set_inputs(schedule.sampled[step].tolist())
+            self.instance.inputs.write(schedule.sampled[step].tolist())
             if self._ramps:
-                self.instance.set_input_rates(schedule.rates[step].tolist())
+                self.instance.inputs.write_rates(schedule.rates[step].tolist())
             if schedule.tuning:
                 self.instance.block(list(schedule.tuning)).write(schedule.tuned[step].tolist())
             if schedule.reads_twice:
                 self.read()
         elif step == 0 and self._ramps:
-            self.instance.set_input_rates(schedule.rates[0].tolist())
+            self.instance.inputs.write_rates(schedule.rates[0].tolist())
         if before is not None:
             before()
         start, target = schedule.start_time, self._times[step + 1]

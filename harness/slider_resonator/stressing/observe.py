@@ -89,7 +89,7 @@ def _run(
     with instance.explained():
         rows = [block.read()]
         for hold in case.holds:
-            instance.set_inputs(hold.inputs)
+            instance.inputs.write(hold.inputs)
             if hold.tuned != tuned:
                 tuned = hold.tuned
                 instance.set(dict(tuned))

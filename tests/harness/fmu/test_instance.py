@@ -49,7 +49,7 @@ def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
     assert "fmi2" not in message
     instance.start({})
     with pytest.raises(Refusal, match="phase"), instance.explained():
-        instance.set_inputs([float("nan"), 0.0, 1.0])
+        instance.inputs.write([float("nan"), 0.0, 1.0])
     record = run(instance, {}, schedule(PERIOD, PERIOD))
     assert record.final("position") != 0.0, "the instance is usable after a refusal"
 

@@ -33,12 +33,12 @@ def rate_differences(fmu: FmuSide) -> list[str]:
     sampled, rates = plain.schedule.sampled.tolist(), plain.schedule.rates.tolist()
 
     def before_values(step: int) -> None:
-        instance.set_input_rates(rates[step])
+        instance.inputs.write_rates(rates[step])
         _through_a_state(instance)
-        instance.set_inputs(sampled[step])
+        instance.inputs.write(sampled[step])
 
     def without_zeros(step: int) -> None:
-        instance.set_inputs(sampled[step])
+        instance.inputs.write(sampled[step])
         for name, rate in zip(INPUTS, rates[step], strict=True):
             if rate:
                 instance.block([name]).write_rates([rate])
@@ -50,8 +50,8 @@ def rate_differences(fmu: FmuSide) -> list[str]:
 
     def at_corners(step: int) -> None:
         if step == 0 or not np.allclose(rates[step], rates[step - 1], rtol=1e-9, atol=1e-12):
-            instance.set_inputs(sampled[step])
-            instance.set_input_rates(rates[step])
+            instance.inputs.write(sampled[step])
+            instance.inputs.write_rates(rates[step])
         _through_a_state(instance)
 
     ways: Mapping[str, Callable[[int], None]] = {
@@ -87,19 +87,19 @@ def _begun(instance: Instance, parameters: Mapping[str, float]) -> list[str]:
     instance.start(parameters)
     held = after_a_step()
     instance.start(parameters)
-    instance.set_input_rates(RATES)
+    instance.inputs.write_rates(RATES)
     growing = after_a_step()
-    instance.set_input_rates(RATES)
+    instance.inputs.write_rates(RATES)
     instance.start(parameters)
     if after_a_step() != held:
         faults.append("derivatives of inputs outlive a reset")
     instance.initialise(parameters)
-    instance.set_input_rates(RATES)
+    instance.inputs.write_rates(RATES)
     instance.begin()
     if after_a_step() != growing:
         faults.append("derivatives set before initialization ends are forgotten")
     instance.start(parameters)
-    instance.set_input_rates(RATES)
+    instance.inputs.write_rates(RATES)
     instance.set(instance.read(TUNABLES))
     if after_a_step() != growing:
         faults.append("derivatives of inputs are forgotten where parameters are set")
@@ -112,6 +112,6 @@ def _through_a_state(instance: Instance) -> None:
     if offers.canGetAndSetFMUstate and offers.canSerializeFMUstate:
         with SavedState.of(instance) as state:
             instance.step_by(AWAY)
-            instance.set_inputs([0.1, 0.2, 1.3])
-            instance.set_input_rates(RATES)
+            instance.inputs.write([0.1, 0.2, 1.3])
+            instance.inputs.write_rates(RATES)
             state.transfer(instance)
