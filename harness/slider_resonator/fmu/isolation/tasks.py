@@ -3,7 +3,7 @@
 import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import AbstractContextManager
 from pathlib import Path
 from threading import Event
@@ -155,26 +155,18 @@ def run_all_tasks(
     before.
     """
     waiting = tasks if isinstance(tasks, deque) else deque(tasks)
-    submitted: deque[tuple[Item, Task, Future[Outcome]]] = deque()
-    count, has_opened = processes.count, False
+    submitted: deque[tuple[Item, Future[Outcome]]] = deque()
+    has_opened = False
     while True:
-        while waiting and len(submitted) < (QUEUED * count if has_opened else 1):
+        while waiting and len(submitted) < (QUEUED * processes.count if has_opened else 1):
             item, task = waiting.popleft()
             if not is_left_out(item):
-                submitted.append((item, task, processes.submit(task)))
+                submitted.append((item, processes.submit(task)))
         if not submitted:
             return
-        item, task, future = submitted.popleft()
+        item, future = submitted.popleft()
         if is_left_out(item):
             future.cancel()
             continue
-        try:
-            outcome = processes.outcome(future)
-        except FmuError:
-            if not has_opened:
-                raise
-            count = 1  # it may run in fewer processes only
-            wait(other for _, _, other in submitted)
-            outcome = processes.outcome(processes.submit(task))
-        yield item, outcome
+        yield item, processes.outcome(future)
         has_opened = True

@@ -9,10 +9,8 @@ from typing import Any
 
 import pytest
 
-from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation import tasks
-from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Outcome
+from slider_resonator.fmu.isolation.process import FmuDied, Outcome
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks, run_tasks
 from tests.harness.fmu.isolation.tasks_of_tests import (
     abort,
@@ -80,22 +78,6 @@ def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
     ((item, outcome),) = run_tasks(tmp_path / "none.fmu", given, 60.0, name=str)
     assert item is None
     assert "no such file" in str(outcome.error)
-
-
-def test_fmu_that_opens_once(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    started: list[object] = []
-
-    def licensed(*arguments: Any) -> IsolatedFmu:
-        started.append(arguments)
-        if len(started) > 1:
-            raise FmuError("all licences are in use")
-        return IsolatedFmu(*arguments)
-
-    monkeypatch.setattr(tasks, "IsolatedFmu", licensed)
-    given = [("a", own_process)] * 4
-    finished = list(run_tasks(native_fmu, given, 60.0, name=str, jobs=2))
-    assert [ending(outcome) for _, outcome in finished] == ["done"] * 4
-    assert len(started) > 1
 
 
 @pytest.mark.isolated
