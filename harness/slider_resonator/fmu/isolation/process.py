@@ -90,7 +90,6 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         self.time_limit = time_limit
         self._stop = stop or threading.Event()
         self._name = fmu.name if fmu else "it"
-        self._killed = False
         self._resources = ExitStack()
         # Also for the unpacked FMU, which a process that has crashed leaves behind.
         self._folder = self._resources.enter_context(temporary_folder())
@@ -134,7 +133,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         FMU crashed or exceeded the time limit. An interrupt, or an exception of `progress`, ends
         the process.
         """
-        if self._killed:
+        if self._requests.closed:
             raise FmuDied("the process of the FMU has been ended")
         request = pickle.dumps((task, progress is not None))
         try:
@@ -171,7 +170,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
 
     def close(self) -> None:
         """Free the FMU and end its process; FmuDied when it crashes or hangs meanwhile."""
-        if self._killed:
+        if self._requests.closed:
             return
         try:
             self._requests.close()
@@ -184,9 +183,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
 
     def kill(self) -> None:
         """End the process and all that it started, and remove its files."""
-        if not self._killed:
-            self._killed = True
-            self._resources.close()
+        self._resources.close()
 
     def _died(self) -> FmuDied:
         """Return the error for a process that has ended or must be ended, and clean up."""
