@@ -23,7 +23,6 @@ COLOURS: Mapping[str, str] = {
     "velocity": "#1f3b57",
     "slow": "#1f5f8b",
     "theory": "#c8553d",
-    "marker": "#1f5f8b",
 }
 CONTACT: Mapping[int, tuple[str, str]] = {
     -1: ("slips backward", "#f3dcd5"),
