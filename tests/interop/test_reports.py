@@ -18,7 +18,7 @@ from selenium.webdriver.support.wait import WebDriverWait
 from slider_resonator.checks.reports.html_report import MAX_UNFOLDED, write_html
 from slider_resonator.checks.validate import Validation, validate
 from slider_resonator.fmu.provenance import provenance_html, provenance_of
-from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html, write_plot_page
+from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html
 from slider_resonator.output.html_page import write_page
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.stressing.report import write_stress_page
@@ -108,7 +108,7 @@ def hovered(browser: Chrome) -> str:
 def test_a_plot_out_of_sight_is_printed(browser: Chrome, page: Path) -> None:
     line = Series("first", [1.0, 3.0], [1.0, 3.0], "#123456")
     plot = HoverPlot("A plot", Axis("time [s]"), Axis("way [m]"), [line])
-    write_plot_page(page, "Plots", [plot_html(plot)] * 20)
+    write_page(page, "Plots", [plot_html(plot)] * 20)
     browser.get(page.as_uri())
     browser.print_page()
     drawn = browser.find_elements("css selector", ".plot[data-drawn] .uplot")
@@ -122,7 +122,7 @@ def test_keys_and_fingers_lead_from_point_to_point(browser: Chrome, page: Path) 
     ]
     plot = HoverPlot("A plot", Axis("time [s]"), Axis("way [m]"), lines)
     body = [plot_html(plot), provenance_html(PROVENANCE)]
-    write_plot_page(page, "Plots", body)
+    write_page(page, "Plots", body)
     assert opened(browser, page) == 1
     over = first_plot(browser)
     browser.execute_script("arguments[0].focus()", over)

@@ -6,10 +6,8 @@ A mouse or a finger near a point, or the arrow keys on a plot in focus, show its
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
 
-from slider_resonator.output.html_page import escaped, write_page
+from slider_resonator.output.html_page import PLOT, escaped
 from slider_resonator.output.json_output import plain
 from slider_resonator.output.readable import printable
 
@@ -76,27 +74,14 @@ def look(index: int) -> tuple[str, str, tuple[int, ...]]:
 
 
 def plot_html(plot: HoverPlot) -> str:
-    """Return the plot as HTML for a page of `write_plot_page`."""
+    """Return the plot as HTML for a page."""
     text = json.dumps(_printable(plain(plot)), separators=(",", ":"), ensure_ascii=True)
     # "<" could end the script element; in JSON it occurs in strings only.
     data = text.replace("<", "\\u003c")
     return (
-        f'<figure><figcaption>{escaped(plot.title)}</figcaption><div class="plot">'
+        f"<figure><figcaption>{escaped(plot.title)}</figcaption>{PLOT}"
         f'<script type="application/json">{data}</script></div></figure>'
     )
-
-
-def write_plot_page(path: Path, title: str, parts: Sequence[str]) -> None:
-    """Write a page with plots among its parts; HarnessError when it cannot be written."""
-    scripts = _texts("vendor/uPlot.iife.min.js", "hover_plot.js")
-    style = "".join(_texts("vendor/uPlot.min.css", "hover_plot.css"))
-    write_page(path, title, parts, scripts, style)
-
-
-@cache
-def _texts(*names: str) -> list[str]:
-    """Return the texts of files of this package."""
-    return [(Path(__file__).parent / name).read_text(encoding="utf-8") for name in names]
 
 
 def _printable(value: object) -> object:

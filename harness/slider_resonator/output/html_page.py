@@ -3,6 +3,7 @@
 import base64
 import re
 from collections.abc import Sequence
+from functools import cache
 from hashlib import sha256
 from html import escape
 from pathlib import Path
@@ -15,6 +16,11 @@ MAX_WIDTH = 44
 """Characters, with one between columns, of a row that fits on a phone; wider rows become cards."""
 LONG = 18
 """Characters from which on a cell has a line of its own on such a card."""
+PLOT = '<div class="plot">'
+"""What begins a plot, which holds its data."""
+SCRIPTS = ("vendor/uPlot.iife.min.js", "hover_plot.js")
+"""Files beside this one that draw plots."""
+STYLES = ("page.css", "vendor/uPlot.min.css", "hover_plot.css")
 
 _WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|(?<= )[\d.]+e-\d+(?= )")
 """Options and small numbers, which browsers would break after a hyphen."""
@@ -50,31 +56,26 @@ def section(anchor: str, heading: str, note: str, html: str, *, unfolded: bool) 
 
 
 def write_page(
-    path: Path,
-    title: str,
-    parts: Sequence[str],
-    scripts: Sequence[str] = (),
-    style: str = "",
-    *,
-    images_beside: bool = False,
+    path: Path, title: str, parts: Sequence[str], *, images_beside: bool = False
 ) -> None:
     """Write a page with a title and parts of HTML; HarnessError when it cannot be written.
 
     It loads nothing but, with `images_beside`, images in its folder, and runs no other scripts than
-    those given.
+    those that draw plots, if it has some.
     """
+    scripts = [_file(name) for name in SCRIPTS if any(PLOT in part for part in parts)]
     images = "data: 'self' file:" if images_beside else "data:"
     policy = f"default-src 'none'; img-src {images}; style-src 'unsafe-inline'"
     if scripts:
         digests = [base64.b64encode(sha256(one.encode()).digest()).decode() for one in scripts]
         policy += "; script-src " + " ".join(f"'sha256-{digest}'" for digest in digests)
-    own_style = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
+    style = "".join(map(_file, STYLES))
     page = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<link rel="icon" href="data:,">',
-        f"<title>{escaped(title)}</title><style>{own_style}{style}</style></head><body>",
+        f"<title>{escaped(title)}</title><style>{style}</style></head><body>",
         f"<h1>{escaped(title)}</h1>",
         *parts,
         *(f"<script>{script}</script>" for script in scripts),
@@ -82,6 +83,11 @@ def write_page(
     ]
     with replacing(path) as temporary:
         temporary.write_text("\n".join(page) + "\n", encoding="utf-8", errors="replace")
+
+
+@cache
+def _file(name: str) -> str:
+    return (Path(__file__).parent / name).read_text(encoding="utf-8")
 
 
 def _min_width(table: Table) -> int:

@@ -23,9 +23,8 @@ from slider_resonator.output.hover_plot import (
     Series,
     look,
     plot_html,
-    write_plot_page,
 )
-from slider_resonator.output.html_page import escaped, rendered
+from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import Drawn, Picture, drawn, style
 from slider_resonator.output.readable import number_of
@@ -174,7 +173,7 @@ def write_sweep_page(path: Path, sweep: Sweep, columns: Columns, provenance: Pro
         parts.append(plot_html(plot))
         parts += [_scale_html(scale, plot.title)] if scale else []
     parts.append(provenance_html(provenance))
-    write_plot_page(path, sweep.title or "Sweep", parts)
+    write_page(path, sweep.title or "Sweep", parts)
 
 
 def _setup(sweep: Sweep, variables: Mapping[str, Drawn]) -> Table:

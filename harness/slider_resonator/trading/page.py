@@ -16,9 +16,8 @@ from slider_resonator.output.hover_plot import (
     Series,
     look,
     plot_html,
-    write_plot_page,
 )
-from slider_resonator.output.html_page import escaped, folded, rendered
+from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.table import Table, numbers, texts
@@ -124,7 +123,7 @@ def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) ->
         missing = rendered(Table(texts("method", "quantity", "reason"), omitted))
         parts.append(folded(f"{len(omitted)} omissions: what is missing, and why", missing))
     parts.append(provenance_html(provenance))
-    write_plot_page(path, "What accuracy costs", parts)
+    write_page(path, "What accuracy costs", parts)
 
 
 def _cells(row: Row) -> list[str]:

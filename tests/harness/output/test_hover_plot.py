@@ -17,8 +17,8 @@ from slider_resonator.output.hover_plot import (
     Series,
     look,
     plot_html,
-    write_plot_page,
 )
+from slider_resonator.output.html_page import write_page
 from slider_resonator.output.plot_style import plot_unit
 from tests.html_pages import Page
 
@@ -29,7 +29,7 @@ HOSTILE = "</script><script>alert(1)</script><img onerror=x>\x1b[31m"
 
 def written(folder: Path, plot: HoverPlot) -> tuple[str, Page]:
     path = folder / "page.html"
-    write_plot_page(path, "title", [plot_html(plot)])
+    write_page(path, "title", [plot_html(plot)])
     text = path.read_text(encoding="utf-8")
     return text, Page(text)
 

@@ -12,8 +12,8 @@ from slider_resonator.checks.validate import Validation, provenance_of_all, wors
 from slider_resonator.checks.verdict import TITLE, sentence, sizes, title, value_text
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.fmu.provenance import provenance_html
-from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html, write_plot_page
-from slider_resonator.output.html_page import escaped, folded, rendered, section
+from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html
+from slider_resonator.output.html_page import escaped, folded, rendered, section, write_page
 from slider_resonator.output.plot_style import range_after_start
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
@@ -34,7 +34,7 @@ def write_html(
     for number, validation in enumerate(validations):
         parts += _section(number, validation)
     parts.append(provenance_html(provenance_of_all(validations)))
-    write_plot_page(path, title, parts)
+    write_page(path, title, parts)
 
 
 def _section(number: int, validation: Validation) -> list[str]:
