@@ -131,10 +131,9 @@ def run_tasks(
                     processes.end()
                     names = dict.fromkeys(name(one) for one, _ in tasks)
                     if not_run := [one for one in names if one not in finished]:
-                        many = "1 crash or exceeded limit"
-                        if len(crashed) > 1:
-                            many = f"{len(crashed)} crashes or exceeded limits"
-                        raise FmuError(f"given up after {many}; not run: {', '.join(not_run)}")
+                        ended = ", ".join(sorted(crashed))
+                        why = f"given up after crashes or exceeded limits in {ended}"
+                        raise FmuError(f"{why}; not run: {', '.join(not_run)}")
                     return
     except FmuError as error:
         yield None, Outcome(error=error)
