@@ -218,7 +218,5 @@ def _platform_problems(path: Path, description: ModelDescription) -> list[str]:
     with zipfile.ZipFile(path) as archive:
         parts = [name.split("/") for name in archive.namelist()]
     platforms = sorted({p[1] for p in parts if p[0] == "binaries" and len(p) > 2})
-    if ours in platforms:
-        return []
-    only = f", only for {', '.join(platforms)}" if platforms else ", nor for another platform"
-    return [f"no binary for {ours}{only}"]
+    others = ", ".join(platforms) or "no platform"
+    return [] if ours in platforms else [f"no binary for {ours}, only for {others}"]

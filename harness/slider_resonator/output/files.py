@@ -19,8 +19,6 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
 
     Raises HarnessError, also for a suffix other than one of `suffixes`, if any.
     """
-    if not text:
-        raise HarnessError("'' names no file; must be the name of a file")
     path = Path(text)
     mode = stat.S_IFREG  # of a new file
     with explained(f"{path}: cannot be written: ", HarnessError), suppress(FileNotFoundError):
@@ -31,10 +29,8 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
     if suffixes and path.suffix.lower() not in suffixes:
         allowed = ", ".join(suffixes)
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be one of {allowed}")
-    if not path.parent.is_dir():
-        raise HarnessError(f"{path}: there is no folder {path.parent}; create it first")
-    reason = f"the folder {path.parent} cannot be written to"
-    with explained(f"{path}: {reason}: ", HarnessError), TemporaryFile(dir=path.parent):
+    where = f"{path}: the folder {path.parent} cannot be written to: "
+    with explained(where, HarnessError), TemporaryFile(dir=path.parent):
         pass  # permissions do not say it all
     return path
 
