@@ -43,14 +43,14 @@ class Point:
 class Run:
     """Outputs at the communication points of a schedule, each of shape (n,), NaN where unknown.
 
-    `rows` are the names of the points in the source, length n.
+    `deviations` are the standard deviations, `rows` the names of the points in the source.
     """
 
     source: str
     schedule: Schedule
     outputs: Mapping[str, Array]
-    deviations: Mapping[str, Array] = field(default_factory=dict)
-    rows: Sequence[str] = ()
+    deviations: Mapping[str, Array]
+    rows: Sequence[str]
 
 
 @dataclass(frozen=True)
@@ -76,11 +76,13 @@ class Measurements:
         found = [*self.points]
         for run in self.runs:
             for name, column in run.outputs.items():
-                rows = run.rows or [f"row {number}" for number in range(1, len(column) + 1)]
-                deviations = run.deviations.get(name, np.full(len(column), nan)).tolist()
-                for row, value, deviation in zip(rows, column.tolist(), deviations, strict=True):
-                    if isfinite(value):
-                        found.append(Point({}, name, value, deviation, run.source, row))
+                deviations = run.deviations[name].tolist()
+                cells = zip(run.rows, column.tolist(), deviations, strict=True)
+                found += [
+                    Point({}, name, value, deviation, run.source, row)
+                    for row, value, deviation in cells
+                    if isfinite(value)
+                ]
         return found
 
     @property

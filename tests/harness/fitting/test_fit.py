@@ -17,7 +17,7 @@ from slider_resonator.fitting.fit import NO_INTERVALS, fit, isolated
 from slider_resonator.fitting.free import free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, datasheet
 from slider_resonator.fitting.notes import OUTLIER_LEVEL, outlying
-from slider_resonator.fitting.reading import measurements_from
+from slider_resonator.fitting.reading import measurements_of
 from slider_resonator.fitting.report import parameter_table
 from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.instance import Instance
@@ -61,7 +61,7 @@ def recorded(
 ) -> dict[str, Array]:
     """Return outputs of the FMU under inputs over time, with normal errors of these sizes."""
     none = {name: 0.0 * columns["time"] for name in noise}
-    exact = predict(instance, true, measurements_from({**columns, **none}))
+    exact = predict(instance, true, measurements_of({**columns, **none}))
     errors = np.random.default_rng(seed).normal(size=(len(columns["time"]), len(noise))).T
     outputs = exact.reshape(errors.shape) + errors * np.array([*noise.values()])[:, np.newaxis]
     return dict(zip(noise, outputs, strict=True))
@@ -129,7 +129,7 @@ def test_a_run_is_fitted_over_time(instance: Instance, first: int) -> None:
     columns = {"time": np.linspace(0.0, 0.2, 81), "phase": np.full(81, 0.4)}
     columns |= recorded(instance, true, columns, {"velocity": 0.0, "position": 0.0})
     columns["velocity"][first + 5] = np.nan
-    data = measurements_from({name: column[first:] for name, column in columns.items()})
+    data = measurements_of({name: column[first:] for name, column in columns.items()})
     found = fitted(instance, data, list(true), starts=1)
     assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
     assert found.notes == data.notes
@@ -151,7 +151,7 @@ def test_noise_is_that_of_each_source(
     columns = {"time": np.linspace(0.0, 0.02, 201), "phase": np.full(201, 0.4)}
     outputs = recorded(instance, TRUE, columns, {"resonator_displacement": run_noise}, seed=4)
     widths = []
-    for data in (table, table + measurements_from(columns | outputs)):
+    for data in (table, table + measurements_of(columns | outputs)):
         found = fitted(instance, data, ["friction_coefficient"], parameters=TRUE, starts=1)
         low, high = interval(found)
         assert low < TRUE["friction_coefficient"] < high
@@ -171,7 +171,7 @@ def test_the_most_likely_minimum_is_taken(instance: Instance) -> None:
     columns = {"time": times, "phase": np.where(times < 0.03, 0.5, -1.2)}
     columns["load"] = np.where(times < 0.05, 0.0, 0.03)
     noise = {"position": 2e-6, "velocity": 4e-3, "resonator_velocity": 3e-2}
-    data = measurements_from(columns | recorded(instance, start | true, columns, noise, seed=110))
+    data = measurements_of(columns | recorded(instance, start | true, columns, noise, seed=110))
     found = fitted(instance, data, list(true), parameters=start)
     assert found.starts_agreeing == 4
     low, high = interval(found, of=2)
@@ -296,7 +296,7 @@ def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance:
     device |= {"normal_preload": 3.0, "normal_amplitude": 3.0, "friction_faces": 1.0}
     device |= {"resonator_frequency": drive / 0.99, "drive_frequency": drive}
     device |= {"base_amplitude": 1e-6, "damping_ratio": 0.02}
-    data = measurements_from({"phase [deg]": [30.0], "load": [0.0], "velocity [mm/s]": [55.0]})
+    data = measurements_of({"phase [deg]": [30.0], "load": [0.0], "velocity [mm/s]": [55.0]})
     found = fitted(instance, data, ["damping_ratio"], parameters=device)
     (damping,) = found.parameters
     assert damping.value == pytest.approx(0.0166, abs=1e-4)
@@ -324,7 +324,7 @@ def test_data_that_were_meant_otherwise_are_noted(
     velocities = measured(instance, {**AVERAGES, **TRUE}, points).measured
     columns = {phase[0]: phase[1] * phases, velocity[0]: velocity[1] * velocities}
     free, start = ["friction_coefficient"], {**AVERAGES, **TRUE, "friction_coefficient": 0.15}
-    found = fitted(instance, measurements_from(columns), free, parameters=start, starts=1)
+    found = fitted(instance, measurements_of(columns), free, parameters=start, starts=1)
     assert found.parameters[0].deviation is None
     assert NO_INTERVALS in found.notes
     (missed,) = [one for one in found.notes if one.startswith("the fit misses")]
@@ -372,7 +372,7 @@ def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> Non
 def test_data_that_do_not_suit_what_is_free_are_refused(instance: Instance) -> None:
     with pytest.raises(HarnessError, match="1 measured number for 2 free parameters"):
         fitted(instance, datasheet(0.1, None, []), ["slider_mass", "damping_ratio"])
-    data = measurements_from({"damping_ratio": [0.1, 0.2], "velocity": [0.1, 0.1]})
+    data = measurements_of({"damping_ratio": [0.1, 0.2], "velocity": [0.1, 0.1]})
     with pytest.raises(HarnessError, match="damping_ratio is free, and a column of data; must be"):
         fitted(instance, data, ["damping_ratio"])
 
