@@ -9,8 +9,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.device.interface import PARAMETERS, VARIABLES
-from slider_resonator.errors import unknown_name
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fitting.measurements import datasheet
 from slider_resonator.fitting.reading import read_measurements
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -37,15 +36,12 @@ def _loaded(text: str) -> tuple[float, float]:
     return _finite("load", load), _finite("steady_velocity", velocity)
 
 
-def _bounds(text: str) -> tuple[str, tuple[float, float]]:
-    """Return name and both bounds in SI units of NAME=LOW:HIGH; ValueError for another text."""
+def _bounds(text: str) -> tuple[str, tuple[str, str]]:
+    """Return name and both bounds of NAME=LOW:HIGH; ValueError for another text."""
     match = re.fullmatch(r"(\w+)=([^:]+):([^:]+)", text.strip())
     if match is None:
         raise ValueError(f"{text!r} is not NAME=LOW:HIGH, such as damping_ratio=0.001:0.2")
-    name = match[1]
-    if name not in PARAMETERS:
-        raise ValueError(unknown_name("parameter", name, PARAMETERS))
-    return name, (_finite(name, match[2]), _finite(name, match[3]))
+    return match[1], (match[2], match[3])
 
 
 _VELOCITY = options.Parsed("m/s", partial(_finite, "steady_velocity"))
@@ -92,7 +88,7 @@ _FORCE = options.Parsed("N", partial(_finite, "blocking_force"))
 def fit_command(
     data: tuple[Path, ...],
     free: Sequence[str],
-    bounds: dict[str, tuple[float, float]],
+    bounds: dict[str, tuple[str, str]],
     velocity: float | None,
     blocking: float | None,
     loaded: Sequence[tuple[float, float]],

@@ -68,7 +68,7 @@ def fit(
     values: Mapping[str, float],
     run: Runner,
     *,
-    bounds: Mapping[str, tuple[float, float]] | None = None,
+    bounds: Mapping[str, Any] | None = None,
     starts: int = STARTS,
 ) -> Fit:
     """Estimate parameters of a device by weighted least squares from several starts.
@@ -148,7 +148,7 @@ def _problem(
     measurements: Measurements,
     names: Sequence[str],
     values: Mapping[str, float],
-    bounds: Mapping[str, tuple[float, float]],
+    bounds: Mapping[str, Any],
 ) -> Problem:
     """Return what is to be fitted; arguments and errors are those of `fit`."""
     parameters = {name: value for name, value in values.items() if name in PARAMETERS}

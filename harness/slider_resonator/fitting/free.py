@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import inf
 from typing import Any
 
 import numpy as np
 
-from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
-from slider_resonator.errors import HarnessError, explained, unknown_name
+from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
+from slider_resonator.errors import HarnessError, unknown_name
 
 WIDE = 1e4
 """Factor beside the start to which a positive parameter without other bounds is confined."""
@@ -55,61 +55,46 @@ class Free:
 def free_parameters(
     names: Sequence[str],
     parameters: Mapping[str, float],
-    bounds: Mapping[str, tuple[float, float]],
+    bounds: Mapping[str, Any],
 ) -> tuple[Free, ...]:
     """Return the parameters to estimate, from those of the device.
 
-    Raises HarnessError with name, value and requirement.
+    `bounds` are pairs of numbers in SI units or texts with a unit. Raises HarnessError with name,
+    value and requirement.
     """
-    possible = sorted({*PARAMETERS} - {*INTEGERS})
     for name in [*names, *bounds]:
-        if name in INPUTS:
-            raise HarnessError(
-                f"{name} is an input; must be a parameter, one of {', '.join(possible)}"
-            )
-        if name not in PARAMETERS:
-            raise HarnessError(unknown_name("parameter", name, possible))
+        if name not in PARAMETERS or name in INTEGERS:
+            possible = {*PARAMETERS} - {*INTEGERS}
+            raise HarnessError(unknown_name("continuous parameter", name, possible))
         if name not in names:
             raise HarnessError(f"bounds of {name}: it is not free; must be one of the free ones")
-        if name in INTEGERS:
-            raise HarnessError(
-                f"{name} is an integer; must be a parameter that varies continuously"
-            )
-    if not any(names):
+    if not names:
         raise HarnessError("free: names nothing; must be one parameter or more")
     if len(set(names)) < len(names):
         raise HarnessError(f"free = {', '.join(names)!r}: must be different parameters")
-    found = []
-    for name in names:
-        variable = VARIABLES[name]
-        start = float(parameters.get(name, variable.start or 0.0))
-        low = -np.inf if variable.minimum is None else variable.minimum
-        high = np.inf if variable.maximum is None else variable.maximum
-        search_bounds: tuple[float, ...] = ()
-        if name in bounds:
-            low, high = _both_bounds(name, bounds[name])
-        elif low >= 0.0 and start > 0.0:
-            allowed = low, high
-            low, high = max(low, start / WIDE), min(high, start * WIDE)
-            search_bounds = tuple({low, high} - {*allowed})
-        for bound in (low, high):
-            if isfinite(bound):
-                with explained("bounds of "):
-                    VARIABLES[name].read(bound)
-        if not low < high:
-            raise HarnessError(f"bounds of {name} = {low:g} to {high:g}: must be ascending")
-        start = min(max(start, low), high)
-        found.append(Free(name, start, float(low), float(high), search_bounds))
-    return tuple(found)
+    return tuple(_free(name, parameters, bounds.get(name)) for name in names)
 
 
-def _both_bounds(name: str, bounds: Any) -> tuple[float, float]:
-    """Return two bounds in SI units, given as numbers or as texts with a unit."""
-    try:
-        variable = VARIABLES[name]
-        low, high = (variable.in_si(one) if isinstance(one, str) else float(one) for one in bounds)
-    except (TypeError, ValueError) as error:
-        raise HarnessError(
-            f"bounds of {name} = {bounds!r}: must be two numbers, or texts with a unit"
-        ) from error
-    return low, high
+def _free(name: str, parameters: Mapping[str, float], bounds: Any) -> Free:
+    """Return a parameter between its bounds, if it has some, or what the search is confined to."""
+    variable = VARIABLES[name]
+    start = float(parameters.get(name, variable.start or 0.0))
+    least = -inf if variable.minimum is None else variable.minimum
+    most = inf if variable.maximum is None else variable.maximum
+    low, high = least, most
+    if bounds is not None:
+        try:
+            low, high = (variable.in_si(b) if isinstance(b, str) else float(b) for b in bounds)
+        except (TypeError, ValueError) as error:
+            raise HarnessError(
+                f"bounds of {name} = {bounds!r}: must be two numbers, or texts with a unit"
+            ) from error
+        if not least <= low < high <= most:
+            raise HarnessError(
+                f"bounds of {name} = {low:g} to {high:g}: must be ascending, each "
+                f"{variable.requirement}"
+            )
+    elif least >= 0.0 and start > 0.0:
+        low, high = max(least, start / WIDE), min(most, start * WIDE)
+    search_bounds = () if bounds is not None else tuple({low, high} - {least, most})
+    return Free(name, min(max(start, low), high), low, high, search_bounds)

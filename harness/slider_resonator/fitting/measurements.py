@@ -144,6 +144,15 @@ class Measurements:
             return self.deviations
         return self.sizes * self.noise
 
+    def root_mean_squares(self, values: Array) -> list[tuple[str, float]]:
+        """Return those of `values` (n,), without NaN, over the numbers of each quantity by name."""
+        found = []
+        for quantity in dict.fromkeys(self.quantities.tolist()):
+            own = values[(self.quantities == quantity) & np.isfinite(values)]
+            if own.size:
+                found.append((quantity, float(np.sqrt(np.mean(own**2)))))
+        return found
+
     def refuse_known(self, settings: Mapping[str, float]) -> None:
         """Raise HarnessError for a setting of no effect, as all data have values of their own."""
         own = [(one.source, {*one.values}) for one in self.points]

@@ -77,14 +77,9 @@ def missed_quantities(measurements: Measurements, predicted: Array) -> dict[str,
     It is the root mean square of the residuals over that of the quantity; `predicted` has shape
     (n,), NaN where there is no motion.
     """
-    missed = ((predicted - measurements.measured) / measurements.sizes) ** 2
-    there = np.isfinite(missed)
-    missed, quantities = missed[there], measurements.quantities[there]
-    shares = {
-        name: float(np.mean(missed[quantities == name])) ** 0.5
-        for name in np.unique(quantities).tolist()
-    }
-    return {name: share for name, share in shares.items() if share >= MISSED}
+    misses = (predicted - measurements.measured) / measurements.sizes
+    shares = measurements.root_mean_squares(misses)
+    return {name: share for name, share in shares if share >= MISSED}
 
 
 def miss_notes(
@@ -149,17 +144,17 @@ def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) 
             number, fit = (measurements.shown(quantity, x[index]) for x in (measured, predicted))
             outliers.append(f"{source} {numbers[index].row}: {quantity} {number}, fit {fit}")
         rows = rows[is_seen[rows]]
-        lengths, expected, chance = runs_about_median(weighted[rows])
+        if len(rows) < 2:
+            continue
+        runs, expected, chance = runs_about_median(weighted[rows])
         if chance < CHANCE:
-            longest = int(np.argmax(lengths))
-            first = int(lengths[:longest].sum())
-            last = first + int(lengths[longest]) - 1
+            longest = max(runs, key=len)
+            first, last = (numbers[rows[longest[end]]].row for end in (0, -1))
             systematic.append(
-                f"{source}: residuals of {quantity} are systematic: {len(lengths)} runs above or "
-                f"below their median, {expected:.0f} by chance (runs test, "
-                f"p = {chance:.1g}), the longest from "
-                f"{numbers[rows[first]].row} to {numbers[rows[last]].row}; the model misses "
-                "something, and the intervals are too narrow"
+                f"{source}: residuals of {quantity} are systematic: {len(runs)} runs above or "
+                f"below their median, {expected:.0f} by chance (runs test, p = {chance:.1g}), the "
+                f"longest from {first} to {last}; the model misses something, and the intervals "
+                "are too narrow"
             )
     if outliers:
         more = len(outliers) - MAX_NAMED
@@ -195,21 +190,18 @@ def outlying(residuals: Array, jacobian: Array, level: float) -> list[int]:
     return sorted(left_out[:count])
 
 
-def runs_about_median(residuals: Array) -> tuple[NDArray[np.intp], float, float]:
-    """Return lengths of runs above and below the median, their number by chance, and its chance.
+def runs_about_median(residuals: Array) -> tuple[list[NDArray[np.intp]], float, float]:
+    """Return runs of indices above and below the median, their number by chance, and its chance.
 
     The last is the probability of as few runs. It is the runs test of Wald and Wolfowitz (1940), in
     the normal approximation with its correction for continuity; `residuals` (n,) are in the order
     of the rows.
     """
     total = len(residuals)
-    if total < 2:
-        return np.array([total]), 1.0, 1.0
     is_above = residuals > np.median(residuals)
-    ends = np.flatnonzero(np.diff(is_above)) + 1
-    lengths = np.diff([0, *ends.tolist(), total])
+    runs = np.split(np.arange(total), np.flatnonzero(np.diff(is_above)) + 1)
     above = float(is_above.sum())
     expected = 2.0 * above * (total - above) / total + 1.0
     variance = (expected - 1.0) * (expected - 2.0) / (total - 1.0)
     deviation = max(variance, 1e-300) ** 0.5
-    return lengths, expected, float(ndtr((len(lengths) + 0.5 - expected) / deviation))
+    return runs, expected, float(ndtr((len(runs) + 0.5 - expected) / deviation))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.fitting.result import Fit, FittedParameter
+from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.files import make_folder, write_csv, write_text
 from slider_resonator.output.html_page import rendered, write_page
@@ -13,7 +13,6 @@ from slider_resonator.output.plot_style import png_data_uri, save
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import to_toml
 
-OPEN = "left open"
 FILES = ("device.toml", "fit.png", "residuals.csv", "fit.html")
 """What a report consists of."""
 
@@ -21,22 +20,11 @@ FILES = ("device.toml", "fit.png", "residuals.csv", "fit.html")
 def parameter_table(fit: Fit) -> Table:
     """Return estimates and intervals; what the data leave open gets no digits."""
     rows = [
-        (one.name, *_numbers(one, fit.scale is None), one.unit, f"{one.start:.6g}")
+        (one.name, *one.texts(fit.scale is None), one.unit, f"{one.start:.6g}")
         for one in fit.parameters
     ]
     columns = (*texts("parameter"), *numbers("estimate", "95 % from", "to"), *texts("unit"))
     return Table((*columns, *numbers("start")), rows)
-
-
-def _numbers(one: FittedParameter, is_solved: bool) -> tuple[str, str, str]:
-    if one.is_open:
-        return OPEN, "", ""
-    if one.deviation is None:
-        return f"{one.value:.{8 if is_solved else 3}g}", "", ""
-    if one.low is None or one.high is None:
-        return f"{one.value:.3g}", *one.interval(2)
-    digits = max(2, 2 - round(np.log10(max((one.high - one.low) / abs(one.value or 1.0), 1e-9))))
-    return f"{one.value:.{digits + 1}g}", *one.interval(digits)
 
 
 def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> list[Path]:

@@ -1,7 +1,7 @@
 """What a fit found: estimates with their intervals, and what there is to say of them."""
 
 from dataclasses import dataclass
-from math import exp, isfinite
+from math import exp, isfinite, log10
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,17 +39,25 @@ class FittedParameter:
     is_open: bool
     at_bound: bool = False
 
-    def interval(self, digits: int = 6) -> tuple[str, str]:
-        """Return both ends as text: "0.1" and "0.2", "above 0.1" and "", or two empty ones."""
+    def texts(self, is_solved: bool) -> tuple[str, str, str]:
+        """Return estimate and both ends as text, in the digits that the interval gives them.
+
+        Ends are "0.1" and "0.2", "above 0.1" and "", or two empty ones. An estimate without an
+        interval has more digits where as many numbers as parameters are solved.
+        """
+        if self.is_open:
+            return "left open", "", ""
         if self.deviation is None:
-            return "", ""
+            return f"{self.value:.{8 if is_solved else 3}g}", "", ""
         if self.low is None and self.high is None:
-            return "unbounded", ""
+            return f"{self.value:.3g}", "unbounded", ""
         if self.high is None:
-            return f"above {self.low:.{digits}g}", ""
+            return f"{self.value:.3g}", f"above {self.low:.2g}", ""
         if self.low is None:
-            return "", f"below {self.high:.{digits}g}"
-        return f"{self.low:.{digits}g}", f"{self.high:.{digits}g}"
+            return f"{self.value:.3g}", "", f"below {self.high:.2g}"
+        width = max((self.high - self.low) / abs(self.value or 1.0), 1e-9)
+        digits = max(2, 2 - round(log10(width)))
+        return f"{self.value:.{digits + 1}g}", f"{self.low:.{digits}g}", f"{self.high:.{digits}g}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -101,13 +109,10 @@ class Fit(Shown, Tabular, Drawable):
         """Return the estimates with their intervals, and what there is to say of them."""
         lines = []
         for one in self.parameters:
-            found = "left open by the data" if one.is_open else f"{one.value:.6g} {one.unit}"
-            low, high = one.interval()
-            if low and high:
-                found += f", 95 % from {low} to {high}"
-            elif low or high:
-                found += f", 95 % {low}{high}"
-            lines.append(f"{one.name:<23} {found}")
+            value, low, high = one.texts(self.scale is None)
+            ends = f"from {low} to {high}" if low and high else low + high
+            unit = "" if one.is_open else f" {one.unit}"
+            lines.append(f"{one.name:<23} {value}{unit}{', 95 % ' if ends else ''}{ends}")
         return [*lines, *self.sentences()]
 
     def sentences(self) -> list[str]:
@@ -121,13 +126,10 @@ class Fit(Shown, Tabular, Drawable):
             solved = "not solved" if self.unmet else "solved, without intervals"
             lines.append(f"as many parameters as numbers: {solved}")
         elif self.measurements.knows_deviations:
+            odd = ": the model or the stated deviations do not fit"
             lines.append(
                 f"residuals have {self.scale:.3g} times the stated standard deviation"
-                + (
-                    ": the model or the stated deviations do not fit"
-                    if self.scale > AS_STATED
-                    else ""
-                )
+                f"{odd if self.scale > AS_STATED else ''}"
             )
         shown = self.measurements.shown
         for index in self.unmet:
@@ -137,12 +139,8 @@ class Fit(Shown, Tabular, Drawable):
             found = f"the nearest found is {shown(name, reached)}"
             nearest = found if isfinite(reached) else "but no steady motion was found"
             lines.append(f"not met: {asked}, {nearest}")
-        quantities = self.measurements.quantities
-        for quantity in dict.fromkeys(quantities.tolist()):
-            seen = np.isfinite(self.predicted) & (quantities == quantity)
-            if seen.any():
-                rms = float(np.sqrt(np.mean((self.predicted - self.measured)[seen] ** 2)))
-                lines.append(f"{quantity} is off by {shown(quantity, rms)} (rms)")
+        for name, size in self.measurements.root_mean_squares(self.predicted - self.measured):
+            lines.append(f"{name} is off by {shown(name, size)} (rms)")
         missing = int(np.count_nonzero(~np.isfinite(self.predicted)))
         if missing:
             lines.append(f"at {missing} of the points the fitted device has no steady motion")
@@ -150,10 +148,8 @@ class Fit(Shown, Tabular, Drawable):
             names = direction.factors
             parts = ", ".join(f"{name} x {exp(0.1 * part):.3g}" for name, part in names.items())
             reach = "hardly" if isfinite(direction.spread) else "do not"
-            told = "determine" if len(names) == 1 else "tell apart"
-            alone = "is" if len(names) == 1 else "together are"
             lines.append(
-                f"the data {reach} {told} {' and '.join(names)}: {parts} {alone} hardly seen"
+                f"the data {reach} determine {' and '.join(names)}: {parts} changes little"
             )
         lines.append(f"{self.starts_agreeing} of {self.starts} starts led to this minimum")
         at_bound = [one.name for one in self.parameters if one.at_bound]

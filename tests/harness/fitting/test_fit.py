@@ -227,15 +227,19 @@ def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
     ("free", "bounds", "said"),
     [
         (["friction_coeff"], {}, "did you mean 'friction_coefficient'?"),
-        (["load"], {}, "load is an input; must be a parameter, one of base_amplitude, bristle_"),
-        (["friction_faces"], {}, "friction_faces is an integer"),
+        (["load"], {}, "unknown continuous parameter 'load' (must be one of base_amplitude, "),
+        (["friction_faces"], {}, "unknown continuous parameter 'friction_faces'"),
         (["slider_mass", "slider_mass"], {}, "must be different parameters"),
         ([], {}, "must be one parameter or more"),
         (["slider_mass"], {"slider_mass": (2.0, 1.0)}, "must be ascending"),
         (["slider_mass"], {"damping_ratio": (0.1, 1.0)}, "bounds of damping_ratio: it is not free"),
         (["slider_mass"], {"slider_mass": 0.1}, "bounds of slider_mass = 0.1: must be two numbers"),
         (["slider_mass"], {"slider_mass": ("1 g", "1 m")}, "must be two numbers, or texts"),
-        (["slider_mass"], {"slider_mass": (-1.0, 1.0)}, "slider_mass = -1.0: must be a finite"),
+        (
+            ["slider_mass"],
+            {"slider_mass": (-1.0, 1.0)},
+            "each a finite number of at least 1e-12 kg",
+        ),
     ],
 )
 def test_refused_free_parameters(
@@ -386,8 +390,6 @@ def test_an_end_at_a_bound_of_the_search_is_none(instance: Instance) -> None:
     (one,) = found.parameters
     assert one.low is None
     assert one.high is not None
-    assert one.interval(2)[0] == ""
-    assert one.interval(2)[1].startswith("below ")
     assert "95 % below " in str(found)
     assert str(parameter_table(found).rows[0][3]).startswith("below ")
     given = {"damping_ratio": (1e-7, 1.0)}
