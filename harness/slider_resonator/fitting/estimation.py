@@ -34,8 +34,7 @@ def predict(
     `searches`; where no such motion is found it is NaN. Raises FmuError and Refusal as
     `Instance.start` does.
     """
-    steady = partial(_steady, instance, parameters, searches=searches)
-    columns = [[steady(point) for point in measurements.points]]
+    columns = [[_steady(instance, parameters, one, searches) for one in measurements.points]]
     for one in measurements.runs:
         record = run(instance, parameters, one.schedule, outputs=list(one.outputs))
         columns += [
@@ -50,10 +49,10 @@ def _steady(
 ) -> float:
     """Return a steady quantity, as `predict` does."""
     values = {**parameters, **point.values}
-    has_validity = "prediction_valid" in instance.fmu.outputs
+    known = [name for name in ("prediction_valid", point.quantity) if name in instance.fmu.outputs]
     instance.start(values)
     with instance.explained():
-        read = instance.read([point.quantity, *(["prediction_valid"] if has_validity else [])])
+        read = instance.read(known)
     if read.get("prediction_valid") == 1.0:
         return read[point.quantity]
     found = SEARCHES[point.quantity](instance, values).value if searches else None

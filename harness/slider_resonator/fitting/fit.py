@@ -25,7 +25,7 @@ from slider_resonator.fitting.estimation import (
     search,
 )
 from slider_resonator.fitting.free import free_parameters
-from slider_resonator.fitting.measurements import Measurements, points_between
+from slider_resonator.fitting.measurements import Measurements, Point, points_between
 from slider_resonator.fitting.notes import (
     SUPPOSITIONS,
     data_notes,
@@ -105,11 +105,11 @@ def fit(
     device = Device.from_mapping(found)
     if "friction_coefficient" in {one.name for one in free} - left_open:
         notes += friction_notes(device)
+    if missed:
+        notes += miss_notes(measurements, missed, _supposed(problem, run))
+    if not is_near:
+        notes.append(NO_INTERVALS)
     if spare:
-        if missed:
-            notes += miss_notes(measurements, missed, _supposed(problem, run))
-        if not is_near:
-            notes.append(NO_INTERVALS)
         notes += misfit_notes(measurements, predicted, best.jacobian)
     if not directions:
         for one in [] if unmet else others:
@@ -118,13 +118,6 @@ def fit(
             notes.append(f"the data are met as well, or almost, by {said}; bounds decide")
         if agreeing == 1 < starts:
             notes.append("no other start led to this minimum: try more (--starts), or bounds")
-    curves = Measurements(tuple(points_between(measurements.points)))
-    task = partial(predict, parameters=found, measurements=curves, searches=False)
-    try:
-        (on_curves,) = run("drawing", [task])
-    except FmuError:
-        on_curves = np.full(len(curves.points), np.nan)
-    drawn = zip(curves.points, on_curves.tolist(), strict=True)
     return Fit(
         fitted,
         device,
@@ -140,7 +133,7 @@ def fit(
         measurements=measurements,
         unmet=tuple(unmet),
         notes=tuple(notes),
-        between=tuple(replace(point, measured=one) for point, one in drawn if isfinite(one)),
+        between=_between(measurements, found, run),
     )
 
 
@@ -154,13 +147,11 @@ def _problem(
     parameters = {name: value for name, value in values.items() if name in PARAMETERS}
     inputs = {name: value for name, value in values.items() if name not in PARAMETERS}
     free = free_parameters(names, parameters, bounds)
-    columns = [(point.source, name) for point in measurements.points for name in point.values]
-    columns += [(one.source, name) for one in measurements.runs for name in one.schedule.tuning]
-    for source, name in columns:
-        if name in names:
+    for source, given in measurements.given:
+        if twice := sorted(given.intersection(names)):
             raise HarnessError(
-                f"{name} is free, and a column of {source}; must be one of them: leave it out of "
-                "the free parameters, or take the column out"
+                f"{twice[0]} is free, and a column of {source}; must be one of them: leave it out "
+                "of the free parameters, or take the column out"
             )
     count = len(measurements.measured)
     if count < len(free):
@@ -181,6 +172,20 @@ def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
         return dict(zip(meant, run("supposing", tasks), strict=True))
     except FmuError:
         return {}
+
+
+def _between(
+    measurements: Measurements, parameters: Mapping[str, float], run: Runner
+) -> tuple[Point, ...]:
+    """Return predictions between the measured points, where the FMU has some without a search."""
+    curves = Measurements(tuple(points_between(measurements.points)))
+    task = partial(predict, parameters=parameters, measurements=curves, searches=False)
+    try:
+        (found,) = run("drawing", [task])
+    except FmuError:
+        return ()
+    drawn = zip(curves.points, found.tolist(), strict=True)
+    return tuple(replace(point, measured=one) for point, one in drawn if isfinite(one))
 
 
 def _estimates(
@@ -248,11 +253,8 @@ def _starts(problem: Problem, count: int) -> list[Array]:
     reach = np.array(
         [np.log(f) if one.is_relative else f for f, one in zip(factors, free, strict=True)]
     )
-    random = np.random.default_rng(SEED)
-    return [
-        first,
-        *(first + reach * random.uniform(-1.0, 1.0, len(free)) for _ in range(count - 1)),
-    ]
+    random = np.random.default_rng(SEED).uniform(-1.0, 1.0, (count - 1, len(free)))
+    return [first, *(first + reach * random)]
 
 
 @contextmanager

@@ -153,14 +153,20 @@ class Measurements:
                 found.append((quantity, float(np.sqrt(np.mean(own**2)))))
         return found
 
+    @property
+    def given(self) -> list[tuple[str, set[str]]]:
+        """The source of each point and run, and the names of what is set there."""
+        given = [(one.source, {*one.values}) for one in self.points]
+        runs = [(run.source, {*run.schedule.signals, *run.schedule.tuning}) for run in self.runs]
+        return given + runs
+
     def refuse_known(self, settings: Mapping[str, float]) -> None:
         """Raise HarnessError for a setting of no effect, as all data have values of their own."""
-        own = [(one.source, {*one.values}) for one in self.points]
-        own += [(run.source, {*run.schedule.signals, *run.schedule.tuning}) for run in self.runs]
         for name, value in settings.items():
-            if all(name in names for _, names in own):
+            if all(name in names for _, names in self.given):
                 raise HarnessError(
-                    f"{name} = {value:g}: {own[0][0]} has values of {name}; must be one of the two"
+                    f"{name} = {value:g}: {self.given[0][0]} has values of {name}; must be one of "
+                    "the two"
                 )
 
     def under(self, inputs: Mapping[str, float]) -> "Measurements":
