@@ -2,8 +2,6 @@
 
 import re
 from collections.abc import Sequence
-from functools import partial
-from math import isfinite
 from pathlib import Path
 
 import click
@@ -20,20 +18,12 @@ from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
 
 
-def _finite(variable: str, text: str) -> float:
-    """Return the finite number in SI units of a text; ValueError for another text."""
-    number = VARIABLES[variable].in_si(text)
-    if not isfinite(number):
-        raise ValueError(f"{variable} = {text}: must be finite")
-    return number
-
-
 def _loaded(text: str) -> tuple[float, float]:
     """Return load (N) and velocity (m/s) of LOAD=VELOCITY; ValueError for another text."""
     load, separator, velocity = text.partition("=")
     if not separator:
         raise ValueError(f"{text!r} is not LOAD=VELOCITY, such as '50 mN=30 mm/s'")
-    return _finite("load", load), _finite("steady_velocity", velocity)
+    return VARIABLES["load"].read(load), VARIABLES["steady_velocity"].read(velocity)
 
 
 def _bounds(text: str) -> tuple[str, tuple[str, str]]:
@@ -44,8 +34,8 @@ def _bounds(text: str) -> tuple[str, tuple[str, str]]:
     return match[1], (match[2], match[3])
 
 
-_VELOCITY = options.Parsed("m/s", partial(_finite, "steady_velocity"))
-_FORCE = options.Parsed("N", partial(_finite, "blocking_force"))
+_VELOCITY = options.Parsed("m/s", VARIABLES["steady_velocity"].read)
+_FORCE = options.Parsed("N", VARIABLES["blocking_force"].read)
 
 
 @click.command("fit", cls=options.SettingsCommand)
