@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INTEGERS, VARIABLES
 from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.variable import Variable
 from slider_resonator.errors import HarnessError
 
 STEADY = ("steady_velocity", "blocking_force")
@@ -19,8 +20,6 @@ MAX_CURVES = 8
 """Number of settings of a second variable up to which each has a colour."""
 POINTS = 200
 """Points between those measured of a quantity: predictions take 30 ms, 300 ms with bristles."""
-TIME = "last_event_time"
-"""A variable with the unit of a column `time`."""
 
 
 @dataclass(frozen=True)
@@ -72,15 +71,15 @@ class Measurements:
 
     @cached_property
     def numbers(self) -> list[Point]:
-        """The numbers, length n, without what a run leaves out; those of runs have no values."""
+        """The numbers, length n, without what a run leaves out; those of runs have a time (s)."""
         found = [*self.points]
         for run in self.runs:
             for name, column in run.outputs.items():
-                deviations = run.deviations[name].tolist()
-                cells = zip(run.rows, column.tolist(), deviations, strict=True)
+                columns = run.schedule.times, column, run.deviations[name]
+                cells = zip(run.rows, *(one.tolist() for one in columns), strict=True)
                 found += [
-                    Point({}, name, value, deviation, run.source, row)
-                    for row, value, deviation in cells
+                    Point({"time": time}, name, value, deviation, run.source, row)
+                    for row, time, value, deviation in cells
                     if isfinite(value)
                 ]
         return found
@@ -211,9 +210,14 @@ def datasheet(
     return Measurements(tuple(points))
 
 
+def variable(name: str) -> Variable:
+    """Return the variable that a column sets or measures; `time` is one like `last_event_time`."""
+    return VARIABLES["last_event_time" if name == "time" else name]
+
+
 def set_value(point: Point, name: str) -> float:
     """Return what a variable was set to, in SI units."""
-    return point.values.get(name, VARIABLES[name].start or 0.0)
+    return point.values.get(name, variable(name).start or 0.0)
 
 
 def abscissa_and_curves(points: Sequence[Point]) -> tuple[str, dict[str, list[int]]]:

@@ -10,48 +10,40 @@ from matplotlib.figure import Figure
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fitting.measurements import (
-    Measurements,
     Point,
     abscissa_and_curves,
     set_value,
+    variable,
 )
 from slider_resonator.output.plot_style import COLOURS, Drawn, Picture, drawn, plot_unit, style
 
 
-def fit_figure(measurements: Measurements, numbers: Array, between: Sequence[Point]) -> Figure:
+def fit_figure(points: Sequence[Point], numbers: Array, between: Sequence[Point]) -> Figure:
     """Draw data and fit above, residuals below: points over what varies most, runs over time.
 
-    `numbers` are measured and predicted values and residuals, (3, n); `between` are predictions
-    between the measured points.
+    `numbers` are measured and predicted values and residuals of the points, (3, n); `between` are
+    predictions between the measured points.
     """
-    points, runs = measurements.points, measurements.runs
-    quantities = list(dict.fromkeys(point.quantity for point in points))
-    count = len(quantities) + sum(len(run.outputs) for run in runs)
+    panels: dict[tuple[str, str], list[int]] = {}
+    for index, point in enumerate(points):
+        run = point.source if "time" in point.values else ""
+        panels.setdefault((point.quantity, run), []).append(index)
+    count = len(panels)
     with style():
         figure = Picture((3.6 + 3.2 * count, 5.5), layout="constrained")
         axes = figure.subplots(2, count, squeeze=False, sharex="col", height_ratios=[2.0, 1.0])
-        columns = iter(axes.T.tolist())
-        for quantity in quantities:
-            rows = [i for i, point in enumerate(points) if point.quantity == quantity]
-            more = [point for point in between if point.quantity == quantity]
+        for column, ((quantity, run), rows) in zip(axes.T.tolist(), panels.items(), strict=True):
+            more = [point for point in between if point.quantity == quantity and not run]
             shown = [*(points[i] for i in rows), *more]
             first, curves = abscissa_and_curves(shown)
             if first:
                 values = np.array([set_value(point, first) for point in shown])
-                x = drawn(first, VARIABLES[first].unit, values)
+                x = drawn(first, variable(first).unit, values)
             else:
                 x = Drawn("number of the measurement", "1", np.arange(1.0, len(shown) + 1.0))
             beyond = np.array([point.measured for point in more])
-            _draw(next(columns), x, quantity, "", numbers[:, rows], beyond, curves)
-        begin = len(points)
-        for run in runs:
-            for name, column in run.outputs.items():
-                there = np.isfinite(column)
-                own = slice(begin, begin + int(there.sum()))
-                begin = own.stop
-                x = drawn("time", "s", run.schedule.times[there])
-                source, curve = f" ({Path(run.source).name})", {"": range(len(x.values))}
-                _draw(next(columns), x, name, source, numbers[:, own], np.empty(0), curve)
+            source = f" ({Path(run).name})" if run else ""
+            _draw(column, x, quantity, source, numbers[:, rows], beyond, curves)
     return figure
 
 

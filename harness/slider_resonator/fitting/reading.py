@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS, VARIABLES
+from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import Signal
 from slider_resonator.device.units import finite_number, is_number, scaled
 from slider_resonator.errors import HarnessError, explained, unknown_name
-from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
+from slider_resonator.fitting.measurements import STEADY, Measurements, Point, Run, variable
 from slider_resonator.scenes.csv_signal import csv_rows, heading_factor, split_heading
 from slider_resonator.scenes.device_file import IN_ANOTHER_UNIT
 
@@ -106,13 +106,13 @@ def _measurements(
     units: dict[str, tuple[str, float]] = {}
     ignored = []
     for heading, cells in columns:
-        variable, std = _parts(heading, aliases)
-        counts = variable in names or any(map(is_number, cells))
+        what, std = _parts(heading, aliases)
+        counts = what in names or any(map(is_number, cells))
         if not counts or heading.lower().rstrip(".") in _ROW_NUMBERS:
             ignored += [heading] if counts or heading else []
             continue
-        name = variable + std
-        if variable not in (outputs if std else names):
+        name = what + std
+        if what not in (outputs if std else names):
             raise ValueError(
                 f"{unknown_name('column', name, {*names, *aliases})}; a unit must be in brackets, "
                 "such as 'phase [deg]'; take out a column of numbers that the fit is not to use"
@@ -120,8 +120,7 @@ def _measurements(
         if name in values:
             raise ValueError(f"two columns {name}; must be one")
         with explained("heading ", ValueError):
-            si_unit = VARIABLES[TIME if variable == "time" else variable].unit
-            factor = heading_factor(heading, si_unit)
+            factor = heading_factor(heading, variable(what).unit)
         if unit := split_heading(heading)[1]:
             units[name] = (unit, factor)
         values[name] = _numbers(heading, rows, cells, factor)
@@ -222,7 +221,7 @@ def _run(
     if times[0] > 0.0:
         # A point at time 0 at which nothing is measured.
         notes = (
-            f"begins at {VARIABLES[TIME].shown(times[0])}; the device starts at time 0 in its "
+            f"begins at {variable('time').shown(times[0])}; the device starts at time 0 in its "
             "initial state, at drive phase 0, and has the inputs of the first row until then",
         )
         times, rows = np.insert(times, 0, 0.0), ["", *rows]

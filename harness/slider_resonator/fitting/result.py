@@ -90,12 +90,12 @@ class Fit(Shown, Tabular, Drawable):
 
     def table(self) -> dict[str, list[Any]]:
         """Return the estimates in columns, those that the data leave open as None."""
-        columns: dict[str, list[Any]] = {
-            name: [getattr(one, name) for one in self.parameters]
-            for name in ("name", "unit", "start", "deviation", "low", "high")
+        others = ("unit", "start", "deviation", "low", "high")
+        return {
+            "parameter": [one.name for one in self.parameters],
+            "value": [None if one.is_open else one.value for one in self.parameters],
+            **{name: [getattr(one, name) for one in self.parameters] for name in others},
         }
-        values = [None if one.is_open else one.value for one in self.parameters]
-        return {"parameter": columns.pop("name"), "value": values, **columns}
 
     def figure(self) -> "Figure":
         """Draw data and fit, with the residuals below."""
@@ -103,7 +103,7 @@ class Fit(Shown, Tabular, Drawable):
         from slider_resonator.fitting.picture import fit_figure
 
         numbers = np.array([self.measured, self.predicted, self.residuals])
-        return fit_figure(self.measurements, numbers, self.between)
+        return fit_figure(self.measurements.numbers, numbers, self.between)
 
     def describe(self) -> list[str]:
         """Return the estimates with their intervals, and what there is to say of them."""
