@@ -53,20 +53,14 @@ class Variable:
             raise ValueError(f"{self.name} = {text!r}: must be {self.requirement}")
         return si_number(self.name, text, self.unit)
 
-    def shown(self, value: float, beside: float | None = None) -> str:
-        """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN.
-
-        The unit is the one that suits the value, or one that is shown `beside` it.
-        """
+    def shown(self, value: float) -> str:
+        """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
         if self.unit in ("1", "1/m", "s/m") or not isfinite(value):
             return f"{value:.6g} {self.unit}".removesuffix(" 1")
-        quantity, suited = (
-            registry().Quantity(float(one), self.unit).to(SHOWN.get(self.unit, self.unit))
-            for one in (value, value if beside is None else beside)
-        )
-        if suited and self.unit != "rad":
-            quantity = quantity.to(suited.to_compact().units)
-        return f"{quantity:.6g~P}".replace("µ", "u")
+        stated = SHOWN.get(self.unit, self.unit)
+        quantity = registry().Quantity(float(value), self.unit).to(stated)
+        compact = quantity.to_compact() if quantity and self.unit != "rad" else quantity
+        return f"{compact:.6g~P}".replace("µ", "u")
 
     def read(self, value: object) -> float:
         """Return a number, or a text with a unit, in SI units: a float, or the int of an Integer.

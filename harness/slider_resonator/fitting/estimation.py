@@ -105,11 +105,6 @@ class Problem:
 
         return lambda internal: at(tuple(internal.tolist()))
 
-    def without(self, index: int, value: float) -> "Problem":
-        """Return the problem in which a free parameter is fixed to a value in SI units."""
-        fixed = {**self.parameters, self.free[index].name: value}
-        return Problem(fixed, (*self.free[:index], *self.free[index + 1 :]), self.measurements)
-
 
 NOTHING = 1e-6
 """Singular value, over the largest, below which differences of the outputs are rounding."""
@@ -283,6 +278,7 @@ def profile_end(
     covariance, least = best.covariance, best.sum_of_squares
     along = np.delete(covariance[:, index] / covariance[index, index], index)
     others = np.delete(best.internal, index)
+    other_free = (*problem.free[:index], *problem.free[index + 1 :])
     accuracy = PROFILE_ACCURACY * min(excess / max(least, 1e-300), 1.0)
 
     def value(distance: float) -> float:
@@ -294,8 +290,9 @@ def profile_end(
         nonlocal along
         if distance == 0.0:
             return -1.0
-        rest = problem.without(index, value(distance))
-        if rest.free:
+        fixed = {**problem.parameters, one.name: value(distance)}
+        rest = Problem(fixed, other_free, problem.measurements)
+        if other_free:
             moved = np.copysign(distance, change)
             nearest = minimise(instance, rest, others + moved * along, accuracy)
             along, found = (nearest.internal - others) / moved, nearest.sum_of_squares

@@ -87,7 +87,8 @@ def _free(name: str, parameters: Mapping[str, float], bounds: Any) -> Free:
             low, high = (variable.in_si(b) if isinstance(b, str) else float(b) for b in bounds)
         except (TypeError, ValueError) as error:
             raise HarnessError(
-                f"bounds of {name} = {bounds!r}: must be two numbers, or texts with a unit"
+                f"bounds of {name} = {bounds!r}: must be two numbers in {variable.unit}, or texts "
+                "with a unit"
             ) from error
         if not least <= low < high <= most:
             raise HarnessError(

@@ -230,11 +230,9 @@ def abscissa_and_curves(points: Sequence[Point]) -> tuple[str, dict[str, list[in
     counts = {name: len({set_value(point, name) for point in points}) for name in names}
     first, *others = sorted((n for n in names if counts[n] > 1), key=lambda n: -counts[n]) or [""]
     curves: dict[str, list[int]] = {}
-    largest = {name: max(abs(set_value(point, name)) for point in points) for name in others}
     for i, point in enumerate(points):
         name = ", ".join(
-            f"{other} {VARIABLES[other].shown(set_value(point, other), beside)}"
-            for other, beside in largest.items()
+            f"{other} {VARIABLES[other].shown(set_value(point, other))}" for other in others
         )
         curves.setdefault(name, []).append(i)
     return first, curves if len(curves) <= MAX_CURVES else {"": list(range(len(points)))}

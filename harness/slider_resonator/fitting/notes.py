@@ -9,7 +9,6 @@ from scipy.special import ndtr, stdtrit
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fitting.estimation import NOTHING
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.scenes.device_file import possible_slips
@@ -33,7 +32,6 @@ SUPPOSITIONS = {
     "the other sign of load": ("load", -1.0),
 }
 """What may be meant by settings: the name of one, and the factor from what was read."""
-_PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k"}
 LOW_FRICTION, HIGH_FRICTION = 0.01, 1.5
 """Coefficients between which dry friction mostly is."""
 
@@ -99,10 +97,7 @@ def miss_notes(
             power = 3 * round(log10(abs(factor) or 1.0) / 3.0)
             parts = [what] if what else []
             if power:
-                prefix = _PREFIXES.get(round(log10(measurements.unit(name)[1])) - power)
-                unit = "another unit" if prefix is None else prefix + VARIABLES[name].unit
-                ratio = f"measured is 1e{power} of what the device predicts"
-                parts.append(f"{name} in {unit} ({ratio})")
+                parts.append(f"{name} in another unit (1e{power} times smaller)")
             if factor < 0.0:
                 parts.append(f"the other sign of {name}")
             if rest < least:  # another meaning must halve what the data miss as they were read

@@ -6,12 +6,7 @@ import pytest
 
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
-from slider_resonator.fitting.measurements import (
-    Measurements,
-    Point,
-    abscissa_and_curves,
-    points_between,
-)
+from slider_resonator.fitting.measurements import Measurements, Point, points_between
 from slider_resonator.fitting.notes import data_notes
 from slider_resonator.fitting.reading import measurements_of, read_measurements
 from tests.harness.golden import assert_mistakes_as_before
@@ -47,16 +42,6 @@ def test_numbers_are_those_that_were_typed(tmp_path: Path) -> None:
     assert [one.values["load"] for one in data.points] == [0.0301, 1.2]
     assert data.measured.tolist() == [0.0463, -0.0377]
     assert VARIABLES["load"].in_si("30.1 mN") == 0.0301
-
-
-def test_names_of_curves_have_one_unit() -> None:
-    points = [
-        Point({"phase": phase, "load": load}, "steady_velocity", 0.1)
-        for load in (0.0, 0.0301, 6.865)
-        for phase in (0.0, 0.1, 0.2, 0.3)
-    ]
-    _, curves = abscissa_and_curves(points)
-    assert list(curves) == ["load 0 N", "load 0.0301 N", "load 6.865 N"]
 
 
 def test_a_run_keeps_its_times_and_may_lack_values(tmp_path: Path) -> None:
