@@ -28,20 +28,23 @@ def predict(
     *,
     searches: bool = True,
 ) -> Array:
-    """Return the numbers of the FMU in the order of `Measurements.measured`, shape (n,).
+    """Return the numbers of the FMU at the points of the measurements, shape (n,).
 
     A steady quantity is the FMU's output where that is valid, else it is found by shooting, if that
     `searches`; where no such motion is found it is NaN. Raises FmuError and Refusal as
     `Instance.start` does.
     """
-    columns = [[_steady(instance, parameters, one, searches) for one in measurements.points]]
-    for one in measurements.runs:
-        record = run(instance, parameters, one.schedule, outputs=list(one.outputs))
-        columns += [
-            record.outputs[name][np.isfinite(column)].tolist()
-            for name, column in one.outputs.items()
-        ]
-    return np.concatenate(columns)
+    runs = {}
+    for source, schedule in measurements.runs.items():
+        outputs = {one.quantity for one in measurements.points if one.source == source}
+        runs[source] = run(instance, parameters, schedule, outputs=sorted(outputs)).outputs
+    found = [
+        _steady(instance, parameters, one, searches)
+        if one.sample is None
+        else runs[one.source][one.quantity][one.sample]
+        for one in measurements.points
+    ]
+    return np.array(found, np.float64)
 
 
 def _steady(

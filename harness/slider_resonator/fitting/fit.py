@@ -178,7 +178,7 @@ def _between(
     measurements: Measurements, parameters: Mapping[str, float], run: Runner
 ) -> tuple[Point, ...]:
     """Return predictions between the measured points, where the FMU has some without a search."""
-    curves = Measurements(tuple(points_between(measurements.points)))
+    curves = Measurements(tuple(points_between(measurements.steady)))
     task = partial(predict, parameters=parameters, measurements=curves, searches=False)
     try:
         (found,) = run("drawing", [task])

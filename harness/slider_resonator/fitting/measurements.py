@@ -2,8 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from math import isfinite, nan
+from math import nan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,10 +23,11 @@ POINTS = 200
 
 @dataclass(frozen=True)
 class Point:
-    """A steady `quantity` measured under `values`, or one of a run; all in SI units.
+    """A number: a steady `quantity` measured under `values`, or one of a run; all in SI units.
 
     `deviation` is the standard deviation of the measurement, NaN where it is not known. `source`
-    and `row` are those of the file.
+    and `row` are those of the file. A number of a run is at the communication point `sample`, and
+    its time is in `values`.
     """
 
     values: Mapping[str, float]
@@ -36,25 +36,12 @@ class Point:
     deviation: float = nan
     source: str = "datasheet"
     row: str = ""
-
-
-@dataclass(frozen=True)
-class Run:
-    """Outputs at the communication points of a schedule, each of shape (n,), NaN where unknown.
-
-    `deviations` are the standard deviations, `rows` the names of the points in the source.
-    """
-
-    source: str
-    schedule: Schedule
-    outputs: Mapping[str, Array]
-    deviations: Mapping[str, Array]
-    rows: Sequence[str]
+    sample: int | None = None
 
 
 @dataclass(frozen=True)
 class Measurements:
-    """All that is measured. Numbers come in the order of points, then runs, output by output.
+    """All that is measured: `points`, and schedules of `runs` by their source.
 
     `noise` is what each number errs by without stated deviations, (n,) or one for all, in root mean
     squares of the quantity and up to a common factor. `units` are those of headings,
@@ -63,41 +50,31 @@ class Measurements:
     """
 
     points: tuple[Point, ...] = ()
-    runs: tuple[Run, ...] = ()
+    runs: Mapping[str, Schedule] = field(default_factory=dict)
     noise: Array | float = 1.0
     units: Mapping[str, tuple[str, float]] = field(default_factory=dict)
     plain_numbers: tuple[tuple[str, str, float], ...] = ()
     notes: tuple[str, ...] = ()
 
-    @cached_property
-    def numbers(self) -> list[Point]:
-        """The numbers, length n, without what a run leaves out; those of runs have a time (s)."""
-        found = [*self.points]
-        for run in self.runs:
-            for name, column in run.outputs.items():
-                columns = run.schedule.times, column, run.deviations[name]
-                cells = zip(run.rows, *(one.tolist() for one in columns), strict=True)
-                found += [
-                    Point({"time": time}, name, value, deviation, run.source, row)
-                    for row, time, value, deviation in cells
-                    if isfinite(value)
-                ]
-        return found
+    @property
+    def steady(self) -> list[Point]:
+        """The points that are not of a run."""
+        return [one for one in self.points if one.sample is None]
 
     @property
     def measured(self) -> Array:
         """What was measured, shape (n,)."""
-        return np.array([one.measured for one in self.numbers])
+        return np.array([one.measured for one in self.points])
 
     @property
     def deviations(self) -> Array:
         """Standard deviations, shape (n,), NaN where they are not known."""
-        return np.array([one.deviation for one in self.numbers])
+        return np.array([one.deviation for one in self.points])
 
     @property
     def quantities(self) -> NDArray[np.str_]:
         """The quantity of each number, shape (n,)."""
-        return np.array([one.quantity for one in self.numbers], np.str_)
+        return np.array([one.quantity for one in self.points], np.str_)
 
     def unit(self, name: str) -> tuple[str, float]:
         """Return the unit of the data, or else the SI unit, and the factor to the latter."""
@@ -113,7 +90,7 @@ class Measurements:
         """Whether the numbers have their standard deviations; HarnessError if only some have."""
         known = np.isfinite(self.deviations)
         if known.any() and not known.all():
-            one = self.numbers[int(np.argmin(known))]
+            one = self.points[int(np.argmin(known))]
             raise HarnessError(
                 f"{np.count_nonzero(known)} of {len(known)} numbers have a standard deviation; "
                 f"must be all or none: give {one.source} a column {one.quantity}_std, or take all "
@@ -125,7 +102,7 @@ class Measurements:
     def series(self) -> dict[tuple[str, str], NDArray[np.intp]]:
         """The indices of the numbers of each quantity and source."""
         found: dict[tuple[str, str], list[int]] = {}
-        for index, one in enumerate(self.numbers):
+        for index, one in enumerate(self.points):
             found.setdefault((one.quantity, one.source), []).append(index)
         return {name: np.array(rows) for name, rows in found.items()}
 
@@ -154,10 +131,9 @@ class Measurements:
 
     @property
     def given(self) -> list[tuple[str, set[str]]]:
-        """The source of each point and run, and the names of what is set there."""
-        given = [(one.source, {*one.values}) for one in self.points]
-        runs = [(run.source, {*run.schedule.signals, *run.schedule.tuning}) for run in self.runs]
-        return given + runs
+        """The source of each steady point and run, and the names of what is set there."""
+        given = [(one.source, {*one.values}) for one in self.steady]
+        return given + [(name, {*one.signals, *one.tuning}) for name, one in self.runs.items()]
 
     def refuse_known(self, settings: Mapping[str, float]) -> None:
         """Raise HarnessError for a setting of no effect, as all data have values of their own."""
@@ -169,23 +145,26 @@ class Measurements:
                 )
 
     def under(self, inputs: Mapping[str, float]) -> "Measurements":
-        """Return the same with inputs of the points that do not say them."""
-        points = (replace(point, values={**inputs, **point.values}) for point in self.points)
+        """Return the same with inputs of the steady points that do not say them."""
+        points = (
+            replace(one, values={**inputs, **one.values}) if one.sample is None else one
+            for one in self.points
+        )
         return replace(self, points=tuple(points))
 
     def multiplied(self, name: str, factor: float) -> "Measurements":
-        """Return the points alone, with what was set by this name times a factor."""
+        """Return the same with what was set by this name at steady points times a factor."""
         points = (
             replace(point, values={**point.values, name: factor * point.values.get(name, 0.0)})
             for point in self.points
         )
-        return replace(self, points=tuple(points), runs=())
+        return replace(self, points=tuple(points))
 
     def __add__(self, other: "Measurements") -> "Measurements":
         """Return both together."""
         return Measurements(
             self.points + other.points,
-            self.runs + other.runs,
+            {**self.runs, **other.runs},
             units={**other.units, **self.units},
             plain_numbers=self.plain_numbers + other.plain_numbers,
             notes=self.notes + other.notes,

@@ -48,7 +48,7 @@ def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> l
             slips.setdefault((source, name), f"{source}: {slip}")
     unsaid = []
     for name, zero in (("phase", "0 rad"), ("load", "0 N")):
-        points = [one for one in measurements.points if name not in one.values]
+        points = [one for one in measurements.steady if name not in one.values]
         asked = {one.source for one in points if (name, one.quantity) != ("load", "blocking_force")}
         unsaid += [
             f"{source}: no {name} is given, and {zero} assumed: a column or a set value can say it"
@@ -85,15 +85,15 @@ def miss_notes(
 ) -> list[str]:
     """Return a note for each of the `missed` quantities, with what would bring the device near it.
 
-    `supposed` are predictions of the device before the fit: as the data were read by the name "",
-    (n,), and of the points alone by those of `SUPPOSITIONS`.
+    `supposed` are predictions (n,) of the device before the fit: as the data were read by the name
+    "", else by those of `SUPPOSITIONS`.
     """
     notes = []
     for name, share in missed.items():
         least, meant = MISSED, ""
         for what, predicted in supposed.items():
-            own = (measurements.quantities[: len(predicted)] == name) & np.isfinite(predicted)
-            factor, rest = _proportion(measurements.measured[: len(own)][own], predicted[own])
+            own = (measurements.quantities == name) & np.isfinite(predicted)
+            factor, rest = _proportion(measurements.measured[own], predicted[own])
             power = 3 * round(log10(abs(factor) or 1.0) / 3.0)
             parts = [what] if what else []
             if power:
@@ -129,7 +129,7 @@ def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) 
     measured = measurements.measured
     weighted = (predicted - measured) / measurements.scales
     is_seen = np.abs(predicted - measured) > ROUNDING * measurements.sizes
-    numbers, series = measurements.numbers, measurements.series
+    points, series = measurements.points, measurements.series
     outliers: list[str] = []
     systematic = []
     for (quantity, source), own in series.items():
@@ -137,14 +137,14 @@ def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) 
         found = rows[outlying(weighted[rows], jacobian[rows], OUTLIER_LEVEL / len(series))]
         for index in found[is_seen[found]].tolist():
             number, fit = (measurements.shown(quantity, x[index]) for x in (measured, predicted))
-            outliers.append(f"{source} {numbers[index].row}: {quantity} {number}, fit {fit}")
+            outliers.append(f"{source} {points[index].row}: {quantity} {number}, fit {fit}")
         rows = rows[is_seen[rows]]
         if len(rows) < 2:
             continue
         runs, expected, chance = runs_about_median(weighted[rows])
         if chance < CHANCE:
             longest = max(runs, key=len)
-            first, last = (numbers[rows[longest[end]]].row for end in (0, -1))
+            first, last = (points[rows[longest[end]]].row for end in (0, -1))
             systematic.append(
                 f"{source}: residuals of {quantity} are systematic: {len(runs)} runs above or "
                 f"below their median, {expected:.0f} by chance (runs test, p = {chance:.1g}), the "

@@ -26,7 +26,7 @@ def fit_figure(points: Sequence[Point], numbers: Array, between: Sequence[Point]
     """
     panels: dict[tuple[str, str], list[int]] = {}
     for index, point in enumerate(points):
-        run = point.source if "time" in point.values else ""
+        run = "" if point.sample is None else point.source
         panels.setdefault((point.quantity, run), []).append(index)
     count = len(panels)
     with style():

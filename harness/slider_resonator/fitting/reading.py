@@ -14,7 +14,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import Signal
 from slider_resonator.device.units import finite_number, is_number, scaled
 from slider_resonator.errors import HarnessError, explained, unknown_name
-from slider_resonator.fitting.measurements import STEADY, Measurements, Point, Run, variable
+from slider_resonator.fitting.measurements import STEADY, Measurements, Point, variable
 from slider_resonator.scenes.csv_signal import csv_rows, heading_factor, split_heading
 from slider_resonator.scenes.device_file import IN_ANOTHER_UNIT
 
@@ -68,7 +68,7 @@ def measurements_of(data: Any, source: str = "data") -> Measurements:
     if not isinstance(data, Iterable):
         raise HarnessError(f"{source} = {data!r}: must be a file, columns, or several of these")
     if not isinstance(data, Mapping):
-        parts = (measurements_of(one, f"data {number}") for number, one in enumerate(data, 1))
+        parts = (measurements_of(one, f"{source} {number}") for number, one in enumerate(data, 1))
         return sum(parts, Measurements())
     try:
         columns = [
@@ -219,15 +219,22 @@ def _run(
     )
     notes: tuple[str, ...] = ()
     if times[0] > 0.0:
-        # A point at time 0 at which nothing is measured.
         notes = (
             f"begins at {variable('time').shown(times[0])}; the device starts at time 0 in its "
             "initial state, at drive phase 0, and has the inputs of the first row until then",
         )
-        times, rows = np.insert(times, 0, 0.0), ["", *rows]
-        measured, deviations = (
-            {name: np.insert(column, 0, np.nan) for name, column in columns.items()}
-            for columns in (measured, deviations)
+        times = np.insert(times, 0, 0.0)
+    begin = len(times) - len(rows)
+    points = [
+        Point(
+            {"time": float(times[begin + index])},
+            *(name, float(column[index]), float(deviations[name][index]), source, row),
+            sample=begin + index,
         )
-    schedule = Schedule(times, inputs, tuning=tuning)
-    return Measurements(runs=(Run(source, schedule, measured, deviations, rows),), notes=notes)
+        for name, column in measured.items()
+        for index, row in enumerate(rows)
+        if isfinite(column[index])
+    ]
+    return Measurements(
+        tuple(points), {source: Schedule(times, inputs, tuning=tuning)}, notes=notes
+    )

@@ -37,7 +37,7 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     write_text(device, note + to_toml(fit.device, title))
     figure = fit.figure()
     save(figure, picture)
-    points = fit.measurements.numbers
+    points = fit.measurements.points
     settings = list(dict.fromkeys(name for point in points for name in point.values))
     found = np.column_stack([fit.measured, fit.predicted, fit.residuals]).tolist()
     # A row for each number; what a steady measurement set is in columns of its own.

@@ -103,7 +103,7 @@ class Fit(Shown, Tabular, Drawable):
         from slider_resonator.fitting.picture import fit_figure
 
         numbers = np.array([self.measured, self.predicted, self.residuals])
-        return fit_figure(self.measurements.numbers, numbers, self.between)
+        return fit_figure(self.measurements.points, numbers, self.between)
 
     def describe(self) -> list[str]:
         """Return the estimates with their intervals, and what there is to say of them."""
@@ -133,7 +133,7 @@ class Fit(Shown, Tabular, Drawable):
             )
         shown = self.measurements.shown
         for index in self.unmet:
-            one = self.measurements.numbers[index]
+            one = self.measurements.points[index]
             name, reached = one.quantity, self.predicted[index]
             asked = f"{name} ({one.source}, {one.row}) must be {shown(name, one.measured)}"
             found = f"the nearest found is {shown(name, reached)}"

@@ -47,21 +47,21 @@ def test_numbers_are_those_that_were_typed(tmp_path: Path) -> None:
 def test_a_run_keeps_its_times_and_may_lack_values(tmp_path: Path) -> None:
     text = "Time [ms],load [mN],velocity,position [um]\n0,0,0.1,1\n\n2000,50,nan,2\n4000,50,0.3,3\n"
     data = read(tmp_path, text)
-    (run,) = data.runs
-    assert run.schedule.times.tolist() == [0.0, 2.0, 4.0]
-    assert run.schedule.sampled[:, 1].tolist() == [0.0, 0.05, 0.05]
+    (schedule,) = data.runs.values()
+    assert schedule.times.tolist() == [0.0, 2.0, 4.0]
+    assert schedule.sampled[:, 1].tolist() == [0.0, 0.05, 0.05]
     assert data.measured == pytest.approx([0.1, 0.3, 1e-6, 2e-6, 3e-6])
     assert data.quantities.tolist() == ["velocity"] * 2 + ["position"] * 3
-    assert [one.row for one in data.numbers[:2]] == ["line 2", "line 5"]
-    assert np.isnan(run.outputs["velocity"][1])
+    assert [one.row for one in data.points[:2]] == ["line 2", "line 5"]
+    assert [one.sample for one in data.points] == [0, 2, 0, 1, 2]
     assert not data.notes
 
 
 def test_a_recording_that_begins_later_is_run_from_time_0(tmp_path: Path) -> None:
     data = read(tmp_path, "time [ms],load [mN],velocity,velocity_std\n3.2,5,0.1,1\n4,7,0.2,1\n")
-    (run,) = data.runs
-    assert run.schedule.times == pytest.approx([0.0, 3.2e-3, 4e-3])
-    assert run.schedule.sampled[:, 1] == pytest.approx([5e-3, 5e-3, 7e-3])
+    (schedule,) = data.runs.values()
+    assert schedule.times == pytest.approx([0.0, 3.2e-3, 4e-3])
+    assert schedule.sampled[:, 1] == pytest.approx([5e-3, 5e-3, 7e-3])
     assert data.measured.tolist() == [0.1, 0.2]
     assert data.deviations.tolist() == [1.0, 1.0]
     (note,) = data.notes
@@ -118,7 +118,8 @@ def test_columns_of_a_script_are_read_as_a_file_is(tmp_path: Path) -> None:
 
 def test_a_run_has_the_names_of_a_table_for_the_drive(tmp_path: Path) -> None:
     data = read(tmp_path, "time,frequency [kHz],velocity\n0,20,0\n1,21,0.1\n")
-    signal = data.runs[0].schedule.tuning["drive_frequency"]
+    (schedule,) = data.runs.values()
+    signal = schedule.tuning["drive_frequency"]
     assert signal.values == pytest.approx((2 * pi * 20e3, 2 * pi * 21e3))
 
 
