@@ -1,8 +1,7 @@
 """Read measurements from columns with headings: of CSV files, or of arrays."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
-from math import isfinite
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -128,20 +127,36 @@ def _measurements(
     if not measured:
         raise ValueError(f"measures nothing; must have a column such as {outputs[0]}")
     given = {name: column for name, column in values.items() if name in settable}
-    _check(rows, given, measured, values, is_run)
-    deviations = {name: values.get(f"{name}_std", np.full(len(rows), np.nan)) for name in measured}
-    found = (_run if is_run else _table)(source, rows, given, measured, deviations)
+    is_measured = np.isfinite([*measured.values()]).any(axis=0)
+    for name, column in given.items():
+        for index in np.flatnonzero((is_measured | is_run) & ~np.isfinite(column)).tolist():
+            raise ValueError(f"{rows[index]}: {name} is empty; must be a number")
+    schedule = _schedule(rows, given) if is_run else None
+    points = _points(source, rows, values, measured, given, schedule)
+    notes = []
+    if ignored:
+        notes.append(f"ignored {', '.join(map(repr, ignored))}: no numbers, or row numbers")
+    if schedule is None and not is_measured.all():
+        skipped = np.count_nonzero(~is_measured)
+        notes.append(f"{skipped} of {len(rows)} rows skipped: nothing measured")
+    if schedule is not None and len(schedule.times) > len(rows):
+        notes.append(
+            f"begins at {variable('time').shown(schedule.times[1])}; the device starts at time 0 "
+            "in its initial state, at drive phase 0, and has the inputs of the first row until then"
+        )
     plain = [
         (source, name, value)
         for name in IN_ANOTHER_UNIT
         if name in values and name not in units
         for value in dict.fromkeys(values[name].tolist())
     ]
-    said = [*found.notes]
-    if ignored:
-        said.insert(0, f"ignored {', '.join(map(repr, ignored))}: no numbers, or row numbers")
-    notes = tuple(f"{source}: {note}" for note in said)
-    return replace(found, units=units, plain_numbers=tuple(plain), notes=notes)
+    return Measurements(
+        points,
+        {} if schedule is None else {source: schedule},
+        units=units,
+        plain_numbers=tuple(plain),
+        notes=tuple(f"{source}: {note}" for note in notes),
+    )
 
 
 def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str], factor: float) -> Array:
@@ -159,45 +174,36 @@ def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str], factor: fl
     return found
 
 
-def _check(
-    rows: Sequence[str], given: Columns, measured: Columns, values: Columns, is_run: bool
-) -> None:
-    """Raise ValueError, with the row, for an empty cell of what is given and for a deviation of 0.
+def _points(
+    source: str,
+    rows: Sequence[str],
+    values: Columns,
+    measured: Columns,
+    given: Columns,
+    schedule: Schedule | None,
+) -> tuple[Point, ...]:
+    """Return what is measured: in a run at a time, else under all that is given in the row.
 
-    Rows of a table at which nothing is measured are not checked.
+    Raises ValueError for a standard deviation that is not above 0.
     """
-    is_needed = np.isfinite([*measured.values()]).any(axis=0) | is_run
-    for name, column in given.items():
-        for index in np.flatnonzero(is_needed & ~np.isfinite(column)).tolist():
-            raise ValueError(f"{rows[index]}: {name} is empty; must be a number")
+    settings = given if schedule is None else {"time": given["time"]}
+    begin = 0 if schedule is None else len(schedule.times) - len(rows)
+    points = []
     for name, column in measured.items():
-        stated = values.get(f"{name}_std", np.ones(len(rows)))
-        for index in np.flatnonzero(np.isfinite(column) & ~(stated > 0.0)).tolist():
-            raise ValueError(f"{rows[index]}: {name}_std = {stated[index]:g}: must be above 0")
+        deviations = values.get(f"{name}_std")
+        for index in np.flatnonzero(np.isfinite(column)).tolist():
+            deviation = nan if deviations is None else float(deviations[index])
+            if deviations is not None and not deviation > 0.0:
+                raise ValueError(f"{rows[index]}: {name}_std = {deviation:g}: must be above 0")
+            setting = {what: float(numbers[index]) for what, numbers in settings.items()}
+            sample = None if schedule is None else begin + index
+            number = float(column[index])
+            points.append(Point(setting, name, number, deviation, source, rows[index], sample))
+    return tuple(points)
 
 
-def _table(
-    source: str, rows: Sequence[str], given: Columns, measured: Columns, deviations: Columns
-) -> Measurements:
-    """Return steady measurements under what was `given` in each row."""
-    points = [
-        Point(
-            {setting: float(values[index]) for setting, values in given.items()},
-            *(name, float(column[index]), float(deviations[name][index]), source, row),
-        )
-        for index, row in enumerate(rows)
-        for name, column in measured.items()
-        if isfinite(column[index])
-    ]
-    skipped = len(rows) - len({point.row for point in points})
-    note = f"{skipped} of {len(rows)} rows skipped: nothing measured"
-    return Measurements(tuple(points), notes=(note,) if skipped else ())
-
-
-def _run(
-    source: str, rows: Sequence[str], given: Columns, measured: Columns, deviations: Columns
-) -> Measurements:
-    """Return a run under inputs and parameters that are `given` over time."""
+def _schedule(rows: Sequence[str], given: Columns) -> Schedule:
+    """Return a run from time 0 on under inputs and parameters that are `given` over time."""
     times = given["time"]
     for index in (np.flatnonzero(np.diff(times) <= 0.0) + 1).tolist():
         raise ValueError(
@@ -217,24 +223,4 @@ def _run(
         }
         for names in (INPUTS, HELD)
     )
-    notes: tuple[str, ...] = ()
-    if times[0] > 0.0:
-        notes = (
-            f"begins at {variable('time').shown(times[0])}; the device starts at time 0 in its "
-            "initial state, at drive phase 0, and has the inputs of the first row until then",
-        )
-        times = np.insert(times, 0, 0.0)
-    begin = len(times) - len(rows)
-    points = [
-        Point(
-            {"time": float(times[begin + index])},
-            *(name, float(column[index]), float(deviations[name][index]), source, row),
-            sample=begin + index,
-        )
-        for name, column in measured.items()
-        for index, row in enumerate(rows)
-        if isfinite(column[index])
-    ]
-    return Measurements(
-        tuple(points), {source: Schedule(times, inputs, tuning=tuning)}, notes=notes
-    )
+    return Schedule(np.union1d([0.0], times), inputs, tuning=tuning)
