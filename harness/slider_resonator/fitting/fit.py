@@ -166,7 +166,13 @@ def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
     """Return what the device before the fit predicts, as `miss_notes` has it; {} if it fails."""
     start = problem.values(problem.start)
     data = problem.measurements
-    meant = {"": data} | {what: data.multiplied(*how) for what, how in SUPPOSITIONS.items()}
+    meant = {"": data}
+    for what, (name, factor) in SUPPOSITIONS.items():
+        points = (
+            replace(one, values={**one.values, name: factor * one.values.get(name, 0.0)})
+            for one in data.points
+        )
+        meant[what] = replace(data, points=tuple(points))
     tasks = [partial(predict, parameters=start, measurements=one) for one in meant.values()]
     try:
         return dict(zip(meant, run("supposing", tasks), strict=True))

@@ -152,14 +152,6 @@ class Measurements:
         )
         return replace(self, points=tuple(points))
 
-    def multiplied(self, name: str, factor: float) -> "Measurements":
-        """Return the same with what was set by this name at steady points times a factor."""
-        points = (
-            replace(point, values={**point.values, name: factor * point.values.get(name, 0.0)})
-            for point in self.points
-        )
-        return replace(self, points=tuple(points))
-
     def __add__(self, other: "Measurements") -> "Measurements":
         """Return both together."""
         return Measurements(

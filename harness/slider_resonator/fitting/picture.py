@@ -1,6 +1,6 @@
 """The picture of a fit: data, fit and residuals."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,12 +9,7 @@ from matplotlib.figure import Figure
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fitting.measurements import (
-    Point,
-    abscissa_and_curves,
-    set_value,
-    variable,
-)
+from slider_resonator.fitting.measurements import Point, abscissa_and_curves, set_value, variable
 from slider_resonator.output.plot_style import COLOURS, Drawn, Picture, drawn, plot_unit, style
 
 
@@ -34,39 +29,28 @@ def fit_figure(points: Sequence[Point], numbers: Array, between: Sequence[Point]
         axes = figure.subplots(2, count, squeeze=False, sharex="col", height_ratios=[2.0, 1.0])
         for column, ((quantity, run), rows) in zip(axes.T.tolist(), panels.items(), strict=True):
             more = [point for point in between if point.quantity == quantity and not run]
-            shown = [*(points[i] for i in rows), *more]
-            first, curves = abscissa_and_curves(shown)
-            if first:
-                values = np.array([set_value(point, first) for point in shown])
-                x = drawn(first, variable(first).unit, values)
-            else:
-                x = Drawn("number of the measurement", "1", np.arange(1.0, len(shown) + 1.0))
-            beyond = np.array([point.measured for point in more])
-            source = f" ({Path(run).name})" if run else ""
-            _draw(column, x, quantity, source, numbers[:, rows], beyond, curves)
+            _draw(column, [*(points[row] for row in rows), *more], numbers[:, rows])
     return figure
 
 
-def _draw(
-    axes: Sequence[Axes],
-    x: Drawn,
-    name: str,
-    source: str,
-    numbers: Array,
-    between: Array,
-    curves: Mapping[str, Sequence[int]],
-) -> None:
-    """Draw a measured output: `numbers` (3, n) over the first n values of `x`.
+def _draw(axes: Sequence[Axes], points: Sequence[Point], numbers: Array) -> None:
+    """Draw what is measured at the first n points, `numbers` (3, n), and predictions at the others.
 
-    Over the others are predictions `between` the measured points. `curves` are the indices of the
-    points of each curve, by its name; one without a name shows what is measured and fit.
+    A single curve shows what is measured and fit; each of several has a colour and a name.
     """
     above, below = axes
+    name = points[0].quantity
+    first, curves = abscissa_and_curves(points)
+    if first:
+        x = drawn(first, variable(first).unit, np.array([set_value(one, first) for one in points]))
+    else:
+        x = Drawn("number of the measurement", "1", np.arange(1.0, len(points) + 1.0))
+    between = np.array([one.measured for one in points[numbers.shape[1] :]])
     factor, unit = plot_unit(VARIABLES[name].unit, *numbers[:2], between)
     measured, predicted = factor * numbers[0], factor * np.concatenate([numbers[1], between])
     below.axhline(0.0, color="0.6", lw=0.8)
-    for number, (curve, points) in enumerate(curves.items()):
-        indices = np.array(points)
+    for number, (curve, rows) in enumerate(curves.items()):
+        indices = np.array(rows)
         indices = indices[np.argsort(x.values[indices], kind="stable")]
         own = indices[indices < len(measured)]
         colour = f"C{number}"
@@ -76,6 +60,7 @@ def _draw(
         mark = "-" if len(own) < len(indices) else "+"  # between samples a run may swing
         above.plot(x.values[indices], predicted[indices], mark, color=fit, label=label)
         below.plot(x.values[own], numbers[2][own], "o", ms=3, color=fit)
+    source = "" if points[0].sample is None else f" ({Path(points[0].source).name})"
     above.set_title(f"{name.replace('_', ' ')} [{unit}]{source}")
     if len(curves) > 1:
         above.legend(title="points measured, lines fit", loc="upper left", bbox_to_anchor=(1, 1))
