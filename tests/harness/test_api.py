@@ -128,7 +128,7 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
         (table, f"{min(table.columns['steady_velocity']):.6g} to"),
         (validation, f"passed: {len(validation.checks)} of {len(validation.checks)} checks"),
         (choice, choice.model.name),
-        (fit, f"{fit.parameters[0].value:.6g}"),
+        (fit, f"{fit.parameters[0].value:.8g}"),
         (scene, "table_1: The device of table 1"),
         (fit.device, "Device(friction_coefficient="),
     ):

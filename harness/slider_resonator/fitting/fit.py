@@ -167,7 +167,7 @@ def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
     start = problem.values(problem.start)
     data = problem.measurements
     meant = {"": data}
-    for what, (name, factor) in SUPPOSITIONS.items():
+    for what, (name, factor) in SUPPOSITIONS.items() if data.steady else ():
         points = (
             replace(one, values={**one.values, name: factor * one.values.get(name, 0.0)})
             for one in data.points
