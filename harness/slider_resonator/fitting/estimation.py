@@ -34,17 +34,18 @@ def predict(
     `searches`; where no such motion is found it is NaN. Raises FmuError and Refusal as
     `Instance.start` does.
     """
-    runs = {}
+    points, series = measurements.points, measurements.series
+    found, runs = np.empty(len(points)), {}
     for source, schedule in measurements.runs.items():
-        outputs = {one.quantity for one in measurements.points if one.source == source}
-        runs[source] = run(instance, parameters, schedule, outputs=sorted(outputs)).outputs
-    found = [
-        _steady(instance, parameters, one, searches)
-        if one.sample is None
-        else runs[one.source][one.quantity][one.sample]
-        for one in measurements.points
-    ]
-    return np.array(found, np.float64)
+        outputs = [name for name, of in series if of == source]
+        runs[source] = run(instance, parameters, schedule, outputs=outputs).outputs
+    for (name, source), rows in series.items():
+        if source in runs:
+            found[rows] = runs[source][name][measurements.samples[rows]]
+        else:
+            steady = (_steady(instance, parameters, points[row], searches) for row in rows.tolist())
+            found[rows] = list(steady)
+    return found
 
 
 def _steady(

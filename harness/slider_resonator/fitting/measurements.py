@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import nan
 
 import numpy as np
@@ -98,7 +99,12 @@ class Measurements:
             )
         return bool(known.all())
 
-    @property
+    @cached_property
+    def samples(self) -> NDArray[np.intp]:
+        """The communication point of each number in its run, shape (n,), -1 for steady ones."""
+        return np.array([-1 if one.sample is None else one.sample for one in self.points])
+
+    @cached_property
     def series(self) -> dict[tuple[str, str], NDArray[np.intp]]:
         """The indices of the numbers of each quantity and source."""
         found: dict[tuple[str, str], list[int]] = {}

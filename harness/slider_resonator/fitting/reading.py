@@ -186,7 +186,8 @@ def _points(
 
     Raises ValueError for a standard deviation that is not above 0.
     """
-    settings = given if schedule is None else {"time": given["time"]}
+    shown = given if schedule is None else {"time": given["time"]}
+    settings = {name: column.tolist() for name, column in shown.items()}
     begin = 0 if schedule is None else len(schedule.times) - len(rows)
     points = []
     for name, column in measured.items():
@@ -195,7 +196,7 @@ def _points(
             deviation = nan if deviations is None else float(deviations[index])
             if deviations is not None and not deviation > 0.0:
                 raise ValueError(f"{rows[index]}: {name}_std = {deviation:g}: must be above 0")
-            setting = {what: float(numbers[index]) for what, numbers in settings.items()}
+            setting = {what: numbers[index] for what, numbers in settings.items()}
             sample = None if schedule is None else begin + index
             number = float(column[index])
             points.append(Point(setting, name, number, deviation, source, rows[index], sample))
