@@ -41,7 +41,8 @@ def predict(
         runs[source] = run(instance, parameters, schedule, outputs=outputs).outputs
     for (name, source), rows in series.items():
         if source in runs:
-            found[rows] = runs[source][name][measurements.samples[rows]]
+            times = measurements.runs[source].times
+            found[rows] = runs[source][name][np.searchsorted(times, measurements.times[rows])]
         else:
             steady = (_steady(instance, parameters, points[row], searches) for row in rows.tolist())
             found[rows] = list(steady)

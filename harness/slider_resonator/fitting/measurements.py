@@ -27,8 +27,7 @@ class Point:
     """A number: a steady `quantity` measured under `values`, or one of a run; all in SI units.
 
     `deviation` is the standard deviation of the measurement, NaN where it is not known. `source`
-    and `row` are those of the file. A number of a run is at the communication point `sample`, and
-    its time is in `values`.
+    and `row` are those of the file. Of a number of a run `values` has the `time` alone.
     """
 
     values: Mapping[str, float]
@@ -37,7 +36,6 @@ class Point:
     deviation: float = nan
     source: str = "datasheet"
     row: str = ""
-    sample: int | None = None
 
 
 @dataclass(frozen=True)
@@ -60,7 +58,7 @@ class Measurements:
     @property
     def steady(self) -> list[Point]:
         """The points that are not of a run."""
-        return [one for one in self.points if one.sample is None]
+        return [one for one in self.points if "time" not in one.values]
 
     @property
     def measured(self) -> Array:
@@ -100,9 +98,9 @@ class Measurements:
         return bool(known.all())
 
     @cached_property
-    def samples(self) -> NDArray[np.intp]:
-        """The communication point of each number in its run, shape (n,), -1 for steady ones."""
-        return np.array([-1 if one.sample is None else one.sample for one in self.points])
+    def times(self) -> Array:
+        """The time of each number in its run (s), shape (n,), NaN for steady ones."""
+        return np.array([one.values.get("time", nan) for one in self.points])
 
     @cached_property
     def series(self) -> dict[tuple[str, str], NDArray[np.intp]]:
@@ -153,7 +151,7 @@ class Measurements:
     def under(self, inputs: Mapping[str, float]) -> "Measurements":
         """Return the same with inputs of the steady points that do not say them."""
         points = (
-            replace(one, values={**inputs, **one.values}) if one.sample is None else one
+            one if "time" in one.values else replace(one, values={**inputs, **one.values})
             for one in self.points
         )
         return replace(self, points=tuple(points))

@@ -21,7 +21,7 @@ def fit_figure(points: Sequence[Point], numbers: Array, between: Sequence[Point]
     """
     panels: dict[tuple[str, str], list[int]] = {}
     for index, point in enumerate(points):
-        run = "" if point.sample is None else point.source
+        run = point.source if "time" in point.values else ""
         panels.setdefault((point.quantity, run), []).append(index)
     count = len(panels)
     with style():
@@ -60,7 +60,7 @@ def _draw(axes: Sequence[Axes], points: Sequence[Point], numbers: Array) -> None
         mark = "-" if len(own) < len(indices) else "+"  # between samples a run may swing
         above.plot(x.values[indices], predicted[indices], mark, color=fit, label=label)
         below.plot(x.values[own], numbers[2][own], "o", ms=3, color=fit)
-    source = "" if points[0].sample is None else f" ({Path(points[0].source).name})"
+    source = f" ({Path(points[0].source).name})" if "time" in points[0].values else ""
     above.set_title(f"{name.replace('_', ' ')} [{unit}]{source}")
     if len(curves) > 1:
         above.legend(title="points measured, lines fit", loc="upper left", bbox_to_anchor=(1, 1))

@@ -132,7 +132,8 @@ def _measurements(
         for index in np.flatnonzero((is_measured | is_run) & ~np.isfinite(column)).tolist():
             raise ValueError(f"{rows[index]}: {name} is empty; must be a number")
     schedule = _schedule(rows, given) if is_run else None
-    points = _points(source, rows, values, measured, given, schedule)
+    settings = {"time": given["time"]} if is_run else given
+    points = _points(source, rows, values, measured, settings)
     notes = []
     if ignored:
         notes.append(f"ignored {', '.join(map(repr, ignored))}: no numbers, or row numbers")
@@ -175,20 +176,13 @@ def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str], factor: fl
 
 
 def _points(
-    source: str,
-    rows: Sequence[str],
-    values: Columns,
-    measured: Columns,
-    given: Columns,
-    schedule: Schedule | None,
+    source: str, rows: Sequence[str], values: Columns, measured: Columns, settings: Columns
 ) -> tuple[Point, ...]:
-    """Return what is measured: in a run at a time, else under all that is given in the row.
+    """Return what is measured under the settings of each row.
 
     Raises ValueError for a standard deviation that is not above 0.
     """
-    shown = given if schedule is None else {"time": given["time"]}
-    settings = {name: column.tolist() for name, column in shown.items()}
-    begin = 0 if schedule is None else len(schedule.times) - len(rows)
+    given = {name: column.tolist() for name, column in settings.items()}
     points = []
     for name, column in measured.items():
         deviations = values.get(f"{name}_std")
@@ -196,10 +190,9 @@ def _points(
             deviation = nan if deviations is None else float(deviations[index])
             if deviations is not None and not deviation > 0.0:
                 raise ValueError(f"{rows[index]}: {name}_std = {deviation:g}: must be above 0")
-            setting = {what: numbers[index] for what, numbers in settings.items()}
-            sample = None if schedule is None else begin + index
+            own = {setting: numbers[index] for setting, numbers in given.items()}
             number = float(column[index])
-            points.append(Point(setting, name, number, deviation, source, rows[index], sample))
+            points.append(Point(own, name, number, deviation, source, rows[index]))
     return tuple(points)
 
 

@@ -53,7 +53,7 @@ def test_a_run_keeps_its_times_and_may_lack_values(tmp_path: Path) -> None:
     assert data.measured == pytest.approx([0.1, 0.3, 1e-6, 2e-6, 3e-6])
     assert data.quantities.tolist() == ["velocity"] * 2 + ["position"] * 3
     assert [one.row for one in data.points[:2]] == ["line 2", "line 5"]
-    assert [one.sample for one in data.points] == [0, 2, 0, 1, 2]
+    assert data.times.tolist() == [0.0, 4.0, 0.0, 2.0, 4.0]
     assert not data.notes
 
 
