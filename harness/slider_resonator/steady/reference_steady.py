@@ -16,9 +16,6 @@ from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))
-TOLERANCE = 1e-9
-"""Accuracy in units of the scale."""
-
 
 Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
 """A reference: device, held inputs and times (n,) to its motion."""
@@ -27,9 +24,8 @@ Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
 class ReferenceMotion(PeriodicRun):
     """A reference under held inputs, whose steady motion is found by shooting.
 
-    `phase` is in rad. `simulate` is any integrator, `tolerance` that of the state in units of its
-    scale. The state has the entries of `STATE` that there are: no resonator at fidelity 1, where
-    its force is given, and no bristle with Coulomb friction.
+    `phase` is in rad. `simulate` is any integrator. The state has the entries of `STATE` that there
+    are: no resonator at fidelity 1, where its force is given, and no bristle with Coulomb friction.
     """
 
     def __init__(
@@ -39,7 +35,7 @@ class ReferenceMotion(PeriodicRun):
         ratio: float,
         *,
         simulate: Simulate = simulate_resolved,
-        tolerance: float = TOLERANCE,
+        tolerance: float = 1e-9,
     ) -> None:
         self.simulate = simulate
         self.tolerance = tolerance
@@ -60,7 +56,7 @@ class ReferenceMotion(PeriodicRun):
         """
         with suppress(NoPeriodicMotion):
             if self.drive_periods:
-                return steady_point(self, guess, load, self.tolerance).displacement / self.period
+                return steady_point(self, guess, load).displacement / self.period
         return None
 
     def blocking_force(self) -> float | None:
@@ -69,7 +65,7 @@ class ReferenceMotion(PeriodicRun):
         size = self.device.max_friction
         with suppress(NoPeriodicMotion):
             if self.drive_periods:
-                return blocked_point(self, *self.warm_up(0.0, 0.0), 0.0, size, self.tolerance)[0]
+                return blocked_point(self, *self.warm_up(0.0, 0.0), 0.0, size)[0]
         return None
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:

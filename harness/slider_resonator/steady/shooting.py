@@ -19,7 +19,6 @@ from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.device_average import full_friction
 from slider_resonator.steady.solvers import (
     A_FAMILY,
-    DIFFERENCE,
     Matrix,
     NoPeriodicMotion,
     PeriodMap,
@@ -35,14 +34,11 @@ SAMPLES = 8
 """Points of the last of these periods that give the size of each state."""
 TOLERANCE = 1e-11
 """Accuracy of the state in units of its scale, by default."""
-
 NEUTRAL = 1e-7
 """A multiplier this close to the unit circle counts as neutral, within its error."""
-
 KINK = 0.1
 """Difference of the one-sided multipliers, in units of 1 minus the two-sided one, from which on the
 larger of them counts."""
-
 DISTANCE = 1e-3
 """Distance of the neighbours, in units of the scale."""
 CORRECTIONS = 2
@@ -88,7 +84,7 @@ def fixed_point(
         return period_map(state)[0] - state
 
     root = solve(change, guess, scale, tolerance=tolerance)
-    jacobian = central_jacobian(change, root.x, DIFFERENCE * scale)
+    jacobian = central_jacobian(change, root.x, scale)
     multipliers = _multipliers(jacobian)
     sides = _one_sided_multipliers(change, root.x, jacobian, scale)
     if sides is not None:
@@ -145,8 +141,8 @@ def _one_sided_multipliers(
 class PeriodicRun(ABC):
     """A device under held inputs, run over a common period of `drive_periods`.
 
-    Its state has the entries `names`, the velocity (m/s) first. There are no `drive_periods` as
-    long as no common period is known.
+    Its state has the entries `names`, the velocity (m/s) first, and is sought to a `tolerance` in
+    units of its scale. There are no `drive_periods` as long as no common period is known.
     """
 
     device: Device
@@ -154,6 +150,7 @@ class PeriodicRun(ABC):
     ratio: float
     names: tuple[str, ...]
     drive_periods: int = 0
+    tolerance: float = TOLERANCE
 
     @property
     def drive_period(self) -> float:
@@ -211,9 +208,7 @@ class PeriodicRun(ABC):
         return state, self.scale(np.abs(states[1:]).max(axis=0))
 
 
-def steady_point(
-    run: PeriodicRun, velocity: float, load: float, tolerance: float = TOLERANCE
-) -> FixedPoint:
+def steady_point(run: PeriodicRun, velocity: float, load: float) -> FixedPoint:
     """Find the repeating motion under a load (N), near a mean velocity (m/s) if there is one.
 
     Raises NoPeriodicMotion.
@@ -221,21 +216,16 @@ def steady_point(
     loaded = partial(run, load=load)
     guess, scale = run.warm_up(velocity, load)
     try:
-        return fixed_point(loaded, guess, scale, tolerance)
+        return fixed_point(loaded, guess, scale, run.tolerance)
     except NoPeriodicMotion:
         between = bracketed_state(loaded, guess, scale)
         if between is None:
             raise
-    return fixed_point(loaded, between, scale, tolerance)
+    return fixed_point(loaded, between, scale, run.tolerance)
 
 
 def blocked_point(
-    run: PeriodicRun,
-    guess: Vector,
-    scale: Vector,
-    load: float,
-    load_scale: float,
-    tolerance: float = TOLERANCE,
+    run: PeriodicRun, guess: Vector, scale: Vector, load: float, load_scale: float
 ) -> tuple[float, FixedPoint]:
     """Find the load of the repeating motion without displacement over a period, near `load` (N).
 
@@ -251,9 +241,8 @@ def blocked_point(
         end, displacement = run(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)
 
-    root = solve(change, np.append(guess, load), scale, tolerance=tolerance)
-    jacobian = central_jacobian(change, root.x, DIFFERENCE * scale)
-    multipliers = _multipliers(jacobian[:-1, :-1])
+    root = solve(change, np.append(guess, load), scale, tolerance=run.tolerance)
+    multipliers = _multipliers(central_jacobian(change, root.x, scale)[:-1, :-1])
     state, load = root.x[:-1], float(root.x[-1])
     _, displacement = run(state, load)
     return load, FixedPoint(state, displacement, root.iterations, root.residual, multipliers)

@@ -48,6 +48,7 @@ A_FAMILY = (
 )
 
 
+@dataclass(eq=False)
 class NoPeriodicMotion(Exception):
     """No repeating motion was found: `status` for machines, `reason` with a remedy for people.
 
@@ -55,14 +56,10 @@ class NoPeriodicMotion(Exception):
     its scale; None where nothing was run.
     """
 
-    def __init__(
-        self, status: str, reason: str, iterations: int = 0, residual: float | None = None
-    ) -> None:
-        super().__init__(reason)
-        self.status = status
-        self.reason = reason
-        self.iterations = iterations
-        self.residual = residual
+    status: str
+    reason: str
+    iterations: int = 0
+    residual: float | None = None
 
 
 @dataclass(frozen=True)
@@ -76,17 +73,14 @@ class Root:
     """Inverse of the scaled Jacobian (n, n)."""
 
 
-def central_jacobian(function: Callable[[Vector], Vector], x: Vector, steps: Vector) -> Matrix:
-    """Return the Jacobian (n, n) at `x` by central differences with the steps (n,).
+def central_jacobian(function: Callable[[Vector], Vector], x: Vector, scale: Vector) -> Matrix:
+    """Return the Jacobian (n, n) at `x` by central differences; `scale` (n,) is that of `x`.
 
     Central, because their error is of second order in a step that must stay well above rounding.
     """
-    columns = []
-    for index, size in enumerate(steps):
-        shift = np.zeros_like(x)
-        shift[index] = size
-        columns.append((function(x + shift) - function(x - shift)) / (2.0 * size))
-    return np.column_stack(columns)
+    steps = DIFFERENCE * scale
+    changes = [function(x + shift) - function(x - shift) for shift in np.diag(steps)]
+    return np.column_stack(changes) / (2.0 * steps)
 
 
 def solve(
@@ -121,13 +115,12 @@ def solve(
         return NoPeriodicMotion("not_converged", reason, iterations, residual())
 
     y = guess / scale
-    steps = np.full_like(y, DIFFERENCE)
     iterations = 0
     value = scaled(y)
     is_kept = inverse is not None
     while True:
         if inverse is None or not is_kept:
-            jacobian = central_jacobian(scaled, y, steps)
+            jacobian = central_jacobian(scaled, y, np.ones_like(y))
             sizes = np.linalg.svd(jacobian, compute_uv=False)
             if sizes[-1] <= SINGULAR * sizes[0]:
                 break
