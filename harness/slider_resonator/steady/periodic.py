@@ -7,7 +7,7 @@ import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
-from slider_resonator.device.interface import INPUTS, VARIABLES
+from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError, explained
 from slider_resonator.fmu.instance import Instance
@@ -18,19 +18,8 @@ STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 """The outputs that are states; the position does not matter, for nothing depends on it."""
 SLOW = 0.1
 """Distance of the frequency ratio from an integer, below which the phase runs slowly: a beat."""
-
-STICKS = 1e-10
-"""Rounding of the fraction of a period in which the slider sticks."""
-
 FIRM = {"normal_preload": 1.0, "normal_amplitude": 0.0, "friction_coefficient": 1e6}
 """Values under which friction shows the deflection of a bristle, whatever it was before."""
-
-
-DEVICE = (
-    *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio", "drive_frequency"),
-    *("normal_preload", "normal_amplitude", "friction_faces", "friction_coefficient"),
-    *("friction_law", "bristle_stiffness", "bristle_damping", "fidelity"),
-)
 
 
 def repeating_periods(ratio: float, drive_period: float, max_denominator: int) -> int:
@@ -69,10 +58,11 @@ class FmuPeriodMap(PeriodicRun):
         self.instance = instance
         self.given = given
         instance.start(given)
+        parameters = [name for name in PARAMETERS if name in instance.fmu.variables]
         names = [*INPUTS, "steady_velocity", "blocking_force"]
-        names += (name for name in ("prediction_valid",) if name in instance.fmu.variables)
+        names += ["prediction_valid"] if "prediction_valid" in instance.fmu.variables else []
         with instance.explained():
-            device, self.values = instance.read(DEVICE), instance.read(names)
+            device, self.values = instance.read(parameters), instance.read(names)
         device["drive_frequency"] *= 1.0 + given.get("frequency_deviation", 0.0)
         with explained(f"{instance.fmu.path.name} reports ", FmuError):
             VARIABLES["drive_frequency"].read(device["drive_frequency"])
@@ -114,7 +104,7 @@ class FmuPeriodMap(PeriodicRun):
     @property
     def sticks_throughout(self) -> bool:
         """Whether the slider stuck throughout the last period, as far as rounding tells."""
-        return abs(self.stick_fraction - 1.0) <= STICKS
+        return abs(self.stick_fraction - 1.0) <= 1e-10
 
     def _deflection(self) -> float:
         """Return the deflection z (m) of the bristle, and end the run.

@@ -13,23 +13,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import isfinite, nan, tau
-from typing import Literal
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
-from slider_resonator.device.interface import INPUTS
+from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.equivalent_force import steady_vibration
 from slider_resonator.steady.periodic import STATE
 from slider_resonator.steady.shooting import NEUTRAL
-
-Quantity = Literal["steady_velocity", "blocking_force"]
-
-QUANTITIES: tuple[Quantity, ...] = ("steady_velocity", "blocking_force")
 
 PERIODS = 4
 """Common periods of a run: as many changes of the state tell what becomes of three of them."""
@@ -41,14 +36,6 @@ RESTARTS = 4
 """Further runs, each from the limit of the one before."""
 RANK = 1e-9
 """Smallest over largest change that counts."""
-
-DEVICE = (
-    *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio", "drive_frequency"),
-    *("base_amplitude", "tangential_force", "frequency_ratio"),
-    *("friction_law", "fidelity", "averaging_order"),
-)
-INITIAL = tuple(f"initial_{name}" for name in STATE)
-READ = (*STATE, "position", "stick_fraction")
 
 
 @dataclass(frozen=True)
@@ -70,22 +57,20 @@ class _Candidate:
 
 def proved_predictions(
     instance: Instance,
-    quantity: Quantity,
+    quantity: str,
     points: Sequence[Mapping[str, float]],
     max_denominator: int,
 ) -> list[float | None]:
-    """Return what the FMU predicts at each point, None where that could not be proved.
+    """Return the steady velocities or blocking forces that the FMU predicts at points.
 
-    `points` are parameters and inputs by name. Only Coulomb friction of the full device is proved:
-    the outputs show its whole state.
+    None stands for one that could not be proved. `points` are parameters and inputs by name. Only
+    Coulomb friction of the full device is proved: the outputs show its whole state.
     """
     proved: list[float | None] = [None] * len(points)
-    if any(name not in instance.fmu.variables for name in (quantity, *DEVICE)):
-        return proved
     try:
         instance.start({})
         with instance.explained():
-            starts = instance.read(DEVICE)
+            starts = instance.read([*PARAMETERS, "frequency_ratio"])
     except HarnessError:
         instance.recreate()
         return proved
@@ -98,10 +83,9 @@ def proved_predictions(
     before: Array | None = None
     for _ in range(1 + RESTARTS):
         runs = np.array([_run(instance, one) for one in left]).reshape(-1, PERIODS + 1, 5)
-        seen = _seen(left, runs)
         good = np.isfinite(runs).all(axis=(1, 2)) & (runs[:, -1, 4] < 1.0)
         left = [one for one, is_good in zip(left, good, strict=True) if is_good]
-        seen = seen[good]
+        seen = _seen(left, runs[good])
         if before is None:
             matrices = _matrices(seen)
         else:
@@ -124,7 +108,7 @@ def proved_predictions(
 
 def _candidate(
     instance: Instance,
-    quantity: Quantity,
+    quantity: str,
     index: int,
     values: Mapping[str, float],
     starts: Mapping[str, float],
@@ -132,7 +116,7 @@ def _candidate(
 ) -> _Candidate | None:
     """Return the motion that a prediction belongs to, None where it cannot be proved.
 
-    `starts` are the values of `DEVICE` that a point does not say.
+    `starts` are the parameters and the frequency ratio that a point does not say.
     """
     device = {**starts, **values}
     count = common_period(device["frequency_ratio"], max_denominator)
@@ -169,14 +153,14 @@ def _vibration(parameters: tuple[tuple[str, float], ...]) -> tuple[complex, comp
     try:
         displacement, force = steady_vibration(device)
         return displacement, force / (1j * device.drive_frequency * device.total_mass)
-    except (ValueError, ArithmeticError):
+    except (HarnessError, ValueError, ArithmeticError):
         return 0j, 0j
 
 
 def _run(instance: Instance, one: _Candidate) -> list[list[float]]:
     """Return state, position and stick fraction after 0, 1, ... common periods, nan on an error."""
-    initial = dict(zip(INITIAL, one.start, strict=True))
-    block = instance.block(READ)
+    initial = {f"initial_{name}": value for name, value in zip(STATE, one.start, strict=True)}
+    block = instance.block((*STATE, "position", "stick_fraction"))
     try:
         with instance.explained():
             instance.initialise({**one.values, **initial})

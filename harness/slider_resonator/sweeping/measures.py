@@ -17,7 +17,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.key_table import KeyTable
-from slider_resonator.steady.proved_predictions import QUANTITIES, proved_predictions
+from slider_resonator.steady.proved_predictions import proved_predictions
 from slider_resonator.steady.searches import SEARCHES
 
 Cell = float | str | None
@@ -141,7 +141,7 @@ def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> lis
     """
     values = [task.values(point) for _, point in points]
     proved: list[dict[str, float]] = [{} for _ in points]
-    for name in QUANTITIES:
+    for name in STATUS:
         if name in task.measures:
             found = proved_predictions(instance, name, values, task.max_denominator)
             for own, value in zip(proved, found, strict=True):
