@@ -46,10 +46,6 @@ class Candidate:
 
 SIGNAL_NEEDS = frozenset({"position", "velocity", "mean_velocity_throughout", "event_times"})
 """Needs that are judged at every step of the scene, not at its end only."""
-STEPS_PER_BEAT = 4.0, 8.0
-"""Steps in a beat, from the fewest on, up to a number that shows its form, too."""
-BEAT_POINTS = 64, 128
-"""The same for the points of a run from which a beat is read."""
 FINEST = 64
 """Maximum steps in a drive period."""
 
@@ -66,26 +62,25 @@ def step_ladder(
     """
     duration = scene.stop_time or 0.0
     own = scene.step_size or duration
+    allowed = MAX_PERIODS * scene.drive_period
     if SIGNAL_NEEDS & set(needs):
         longest = min(duration, own)
     elif varying or "beat" in needs:
-        longest = min(duration, MAX_PERIODS * scene.drive_period)
+        longest = min(duration, allowed)
     else:
-        halvings = max(0, ceil(log2(duration / (MAX_PERIODS * scene.drive_period))))
-        return tuple(duration * 2.0**-index for index in range(halvings + 1))
-    shortest = min(longest, MAX_PERIODS * scene.drive_period)
-    if "beat" in needs:
+        own = longest = duration
+    shortest = min(longest, allowed)
+    if "beat" in needs:  # 4 to 8 steps show one, 64 to 128 points of a run give its frequency
         frequency = beat_frequency(scene)
         beat = 1.0 / frequency if frequency else inf
-        spaces = (BEAT_POINTS, duration), (STEPS_PER_BEAT, beat)
-        shortest = min(shortest, *(length / most for (_, most), length in spaces))
-        longest = min(longest, *(length / least for (least, _), length in spaces))
+        shortest = min(shortest, duration / 128, beat / 8.0)
+        longest = min(longest, duration / 64, beat / 4.0)
     first = own * 2.0 ** floor(log2(longest / own * (1.0 + 1e-9)))
+    halvings = ceil(log2(first / shortest))
     if varying:
         finest = (scene.drive_period / FINEST, duration / schedule.MAX_STEPS, duration / max_steps)
-        shortest = min(first, max(finest))
-        return tuple(first * 2.0**-k for k in range(floor(log2(first / shortest)) + 1))
-    return tuple(first * 2.0**-k for k in range(ceil(log2(first / shortest)) + 1))
+        halvings = floor(log2(first / min(first, max(finest))))
+    return tuple(first * 2.0**-index for index in range(halvings + 1))
 
 
 STALLED = 0.7
