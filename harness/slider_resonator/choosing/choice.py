@@ -91,18 +91,10 @@ def cheapest(evaluations: Sequence[Evaluation]) -> Evaluation:
 
 
 @dataclass(frozen=True)
-class RuledOut:
+class RuledOut(Model):
     """A model that is not the answer, and why."""
 
-    fidelity: int
-    friction_law: int
-    why: str
-    averaging_order: int | None
-
-    @property
-    def model(self) -> Model:
-        """Fidelity, friction law and averaging order."""
-        return Model(self.fidelity, self.friction_law, self.averaging_order)
+    why: str = ""
 
 
 @dataclass(frozen=True, repr=False)
@@ -185,5 +177,5 @@ class Choice(Shown, Tabular):
             f"need     {name}: error {error_text(error)}, allowed {allowed:.3g} {unit}"
             for name, error, allowed, unit in zip(*self.table().values(), strict=True)
         ]
-        others = [f"not      {one.model.name}: {one.why}" for one in self.ruled_out]
+        others = [f"not      {one.name}: {one.why}" for one in self.ruled_out]
         return [*self.sentences(), *needs, *others]

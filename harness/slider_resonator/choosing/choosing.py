@@ -26,8 +26,8 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.steady.searches import SteadyAnswer
 
-TIGHTER = {0: 2, 1: 0, 2: 0}
-"""By fidelity, tolerances below the largest one that serves which may cost less: leaps differ."""
+TIGHTER = 2
+"""Tolerances below the largest one that serves which may cost less where periods are leapt over."""
 ROUNDING = 1e-9
 """Share of a step that is rounding."""
 MAX_COST_RATIO = 5.0
@@ -177,7 +177,7 @@ class Choosing:
         others = choices[:-1]  # the tightest serves
         index = bisect_left(others, True, key=lambda one: excess(one, step) <= 1.0)
         found = [self._evaluate(Candidate(model, choices[index], step))]
-        for tolerance in choices[index + 1 : index + 1 + TIGHTER[model.fidelity]]:
+        for tolerance in choices[index + 1 : index + 1 + TIGHTER] if model.leaps else ():
             if excess(tolerance, step) >= found[-1].excess:
                 break  # nothing is leapt over
             found.append(self._evaluate(Candidate(model, tolerance, step)))
@@ -246,9 +246,7 @@ class Choosing:
         lacks = "no model can: the resolved motion gives no "
         none = lacks if worst.error == inf and not worst.magnitude else "none suffices: "
         return Choice(
-            fidelity=model.fidelity,
-            averaging_order=model.averaging_order,
-            friction_law=model.friction_law,
+            **vars(model),
             step=evaluation.candidate.step,
             tolerance=evaluation.candidate.tolerance,
             meets=best is not None,
@@ -256,7 +254,7 @@ class Choosing:
             allowed=evaluation.allowed,
             cost=evaluation.cost,
             ruled_out=tuple(
-                RuledOut(other.fidelity, other.friction_law, why, other.averaging_order)
+                RuledOut(**vars(other), why=why)
                 for other, why in ruled_out.items()
                 if best is None or other != model
             ),

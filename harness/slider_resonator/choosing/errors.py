@@ -99,7 +99,7 @@ NEAR_AN_INTEGER = 0.1
 """Distance of the frequency ratio from an integer within which the phase turns slowly."""
 MIN_BEATS = 2.0
 """Beats in the later half of a run from which their frequency can be read."""
-SHOWN, HARMONICS = 0.2, (1, 2, 3)
+SHOWN = 0.2
 """Distance of a frequency from the beat or a multiple of it, in beats, up to which it is that."""
 
 
@@ -117,10 +117,10 @@ def lacking_beat(scene: Scene) -> str:
         return "the frequency ratio changes, and the beat with it"
     beat = beat_frequency(scene)
     if beat == 0.0:
-        where = f"no beat at frequency_ratio = {ratio.values[0]:.9g}"
-        if ratio.values[0] == round(ratio.values[0]):
-            return f"{where}: at an integer the difference of the two phases is constant"
-        return f"{where}: it is farther than {NEAR_AN_INTEGER:g} from an integer"
+        return (
+            f"no beat at frequency_ratio = {ratio.values[0]:.9g}: must be within "
+            f"{NEAR_AN_INTEGER:g} of an integer, but not at one"
+        )
     beats = 0.5 * (scene.stop_time or 0.0) * beat
     if beats < MIN_BEATS:
         return f"the later half of the run has {beats:.2g} beats; {MIN_BEATS:g} show one"
@@ -134,7 +134,7 @@ def unseen_beat(seen: ErrorEstimate, beat: float) -> str:
     elsewhere.
     """
     found = seen.magnitude
-    if any(abs(found - n * beat) <= SHOWN * beat for n in HARMONICS):
+    if any(abs(found - n * beat) <= SHOWN * beat for n in (1, 2, 3)):
         return ""
     where = f"no beat of {beat:.4g} Hz in the resolved run"
     return seen.reason or f"{where}: its strongest oscillation has {found:.4g} Hz"

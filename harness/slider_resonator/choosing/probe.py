@@ -197,7 +197,7 @@ class Probe:
         Raises FmuError or Refusal where the FMU cannot run it.
         """
         step = candidate.step or self.duration
-        joined, stop = step * self._together(step), self._stop
+        joined, stop = step * self._together(step), self._basis[1]
         record, seconds = self._run(candidate, joined, stop)
         if joined > step:
             seconds = self.cost(candidate) * stop / self.duration
@@ -219,7 +219,7 @@ class Probe:
         """Return the cost (s) of a run with a candidate, by that up to `stop` (s)."""
         step = candidate.step or self.duration
         most = TIMED_STEPS * step if self._together(step) > 1 else inf
-        stop = min(stop, self._stop, most)
+        stop = min(stop, self._basis[1], most)
         return self._run(candidate, min(step, stop), stop)[1] * self.duration / stop
 
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
@@ -259,16 +259,12 @@ class Probe:
         """What the errors were compared with: "whole", "leaps" over the whole, or "beginning"."""
         return self._basis[2]
 
-    @property
-    def _stop(self) -> float:
-        """Where references end (s): with the scene, where that can be run as a whole."""
-        return self._basis[1]
-
     @cached_property
     def _basis(self) -> tuple[Candidate, float, str]:
         """What candidates are compared with, where it ends (s), and what that covers.
 
-        The CPU time of a beginning of resolved motion decides.
+        It ends with the scene, where that can be run as a whole. The CPU time of a beginning of
+        resolved motion decides.
         """
         head = min(self.duration, HEAD_PERIODS * self.scene.drive_period)
         seconds = self._exact_run(self.finest, head, head)[1] * self.duration / head

@@ -85,7 +85,7 @@ def choose_command(
         for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
     ]
     columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
-    others = [(one.model.name, one.why) for one in choice.ruled_out]
+    others = [(one.name, one.why) for one in choice.ruled_out]
     ruled_out = [Table(texts("ruled out", "why"), others)] if others else []
     tables = (Table(columns, rows), *ruled_out)
     print_result(choice, choice.sentences(), *tables, as_json=as_json, provenance=provenance)
