@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite
+from math import isfinite
 from typing import Any
 
+from slider_resonator.checks.measures import share_of
 from slider_resonator.choosing.candidate import Candidate, uses_tolerance
 from slider_resonator.choosing.errors import ErrorEstimate
 from slider_resonator.device.model import Model
@@ -70,8 +71,7 @@ class Evaluation:
 
     def _share(self, name: str) -> float:
         """Return an error over the allowed one; a relative one of 0 allows 0 only."""
-        error, allowed = self.estimates[name].error, self.allowed[name]
-        return error / allowed if allowed > 0.0 else inf if error > 0.0 else 0.0
+        return share_of(self.estimates[name].error, self.allowed[name])
 
 
 def cheapest(evaluations: Sequence[Evaluation]) -> Evaluation:

@@ -38,7 +38,6 @@ NEAR, DISTURBANCE = 2.0, 1e-3
 first timing may be too long."""
 ROUNDS, ENOUGH = 25, 0.4
 """Times that they are run in turn, at most, and CPU time (s) after which no other turn begins."""
-CHEAPEST = "the cheapest that meets every need"
 TIME_LIMIT = 600.0
 """Default time limit of a choice, s."""
 
@@ -109,15 +108,9 @@ class Choosing:
         if not good:
             return self._choice(None, ruled_out)
         good = self._timed_again(good)
-        best = cheapest(good)
-        least = min(one.cost for one in good)
-        tie = f"{CHEAPEST}, {least:.3g} s, or within {SAME_COST - 1.0:.0%} of it"
-        why = CHEAPEST if best.cost == least else tie
         for one in sorted(good, key=lambda one: -one.cost):
-            own, chosen = f"{one.cost:.3g} s", f"{best.cost:.3g} s"
-            at = f"at {own} instead of {chosen}" if own != chosen else "at the same cost"
-            ruled_out[one.candidate.model] = f"meets the needs too, {at}"
-        return self._choice(best, {model: ruled_out[model] for model in every}, why)
+            ruled_out[one.candidate.model] = f"meets the needs too, at {one.cost:.3g} s"
+        return self._choice(cheapest(good), ruled_out)
 
     def _impossible(self) -> str:
         """Return why the resolved device itself lacks a needed quantity, empty if it does not."""
@@ -237,14 +230,14 @@ class Choosing:
                 costs[candidate] = min(cost, costs[candidate])
         return [replace(one, cost=costs[one.candidate]) for one in good]
 
-    def _choice(
-        self, best: Evaluation | None, ruled_out: Mapping[Model, str], why: str = ""
-    ) -> Choice:
+    def _choice(self, best: Evaluation | None, ruled_out: Mapping[Model, str]) -> Choice:
+        """Return the answer: the best, or the nearest where there is none, and why no other."""
         evaluation = best or self._nearest()
         model = evaluation.candidate.model
         worst = evaluation.estimates[evaluation.worst]
         lacks = "no model can: the resolved motion gives no "
         none = lacks if worst.error == inf and not worst.magnitude else "none suffices: "
+        reason = f"the cheapest that meets every need, to within {SAME_COST - 1.0:.0%}"
         return Choice(
             **vars(model),
             step=evaluation.candidate.step,
@@ -254,11 +247,11 @@ class Choosing:
             allowed=evaluation.allowed,
             cost=evaluation.cost,
             ruled_out=tuple(
-                RuledOut(**vars(other), why=why)
-                for other, why in ruled_out.items()
+                RuledOut(**vars(other), why=ruled_out[other])
+                for other in self.models()
                 if best is None or other != model
             ),
-            reason=why if best else none + evaluation.why,
+            reason=reason if best else none + evaluation.why,
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods,
             drive_period=self.scene.drive_period,

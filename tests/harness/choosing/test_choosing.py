@@ -1,13 +1,12 @@
 """Choices for scenes whose answer follows from physics."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.choice import Evaluation, cheapest
-from slider_resonator.choosing.choosing import Choosing, choose, choose_with
+from slider_resonator.choosing.choosing import choose, choose_with
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
@@ -90,17 +89,6 @@ def test_of_equal_costs_the_model_that_leaves_out_least_is_taken() -> None:
     assert cheapest([averages, fine, rough, expensive]) is rough
     resolved = evaluation(Model(2, 0), 1e-8, 1.04)
     assert cheapest([averages, rough, resolved]) is resolved
-
-
-def test_costs_that_round_to_the_same_are_the_same(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    costs = iter((0.01619, 0.01621))
-    monkeypatch.setattr(
-        Choosing, "_timed_again", lambda _, good: [replace(one, cost=next(costs)) for one in good]
-    )
-    choice = choose_with(instance, scene_of("[need]\nsteady_velocity = { rel = 0.01 }\n"))
-    assert choice.ruled_out[0].why == "meets the needs too, at the same cost"
 
 
 def test_the_mean_velocity_can_be_needed_throughout(instance: Instance) -> None:
