@@ -154,11 +154,9 @@ class StressResult(Shown, Tabular):
         """The counts and the worst cost, in words."""
         made = Counter(check.name for one in self.verdicts for check in one.checks)
         counts = ", ".join(f"{count} {verdict}" for verdict, count in self.counts.items())
-        skipped = f"{self.skipped} skipped: not for this FMU" if self.skipped else "none skipped"
-        not_run = f", {self.not_run} not run: incomplete" if self.not_run else ""
         lines = [
-            f"{number_of(len(self.verdicts), 'case')}: {counts}, {skipped}{not_run}; "
-            f"{self.wall_time:.0f} s",
+            f"{number_of(len(self.verdicts), 'case')}: {counts}, {self.skipped} skipped, "
+            f"{self.not_run} not run; {self.wall_time:.0f} s",
             f"{number_of(made[REFERENCE], 'case')} compared with a reference, "
             f"which gave up in {made[NO_REFERENCE]} others",
         ]
