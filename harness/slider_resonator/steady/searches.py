@@ -1,7 +1,7 @@
 """Find steady velocity and blocking force of an FMU by shooting, without a long run."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import Any, ClassVar, TypeVar
 
@@ -20,13 +20,19 @@ Result = TypeVar("Result", bound="SearchResult")
 
 UNDECIDED = ("neutral", "not_converged", "no_fixed_point", "not_unique")
 """Statuses that a resonator without damping explains."""
+DEPARTURES = {
+    "stable": "decay",
+    "unstable": "grow: another motion is reached in practice",
+    "neutral": "neither grow nor decay",
+}
+"""What small departures from a motion do, by its stability."""
 
 
 @dataclass(frozen=True, repr=False)
 class SearchResult(Shown):
     """Status, reason and cost of a search.
 
-    What is `searched` is a field, in `unit`.
+    What is `searched` is a field, in `unit`; `settled` is the status where it is found and stable.
     `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
     `prediction_valid` what the FMU says of it, None where it has no such output. `inputs` are those
     that were held, in SI units, deviations only where not 0, with friction on `friction_faces`.
@@ -37,6 +43,7 @@ class SearchResult(Shown):
 
     searched: ClassVar[str]
     unit: ClassVar[str]
+    settled: ClassVar[str]
     held: ClassVar[Sequence[str]] = tuple(INPUTS)
     status: str
     reason: str
@@ -99,7 +106,7 @@ class SteadyMotion(SearchResult):
     no_common_period, no_fixed_point, not_unique or not_converged.
     """
 
-    searched, unit = "steady_velocity", "m/s"
+    searched, unit, settled = "steady_velocity", "m/s", "steady"
     steady_velocity: float | None = None
     state: Mapping[str, float] = field(default_factory=dict)
 
@@ -124,24 +131,14 @@ def find_steady(
     except NoPeriodicMotion as none:
         if run.drive_periods and runaway is not None:
             none.status, none.reason = runaway.status, runaway.reason
-        return _result(SteadyMotion, none.status, none.reason, run, none)
-    largest = f"{abs(found.multipliers[0]):.9g}"
-    repeats = "this motion repeats but departures from it"
-    status, reason = {
-        "stable": ("steady", f"stable: the largest multiplier is {largest}"),
-        "unstable": (
-            "unstable",
-            f"{repeats} grow by {largest} per common period: another one is reached in practice",
-        ),
-        "neutral": ("neutral", f"{repeats} neither grow nor decay ({largest})"),
-    }[found.stability]
-    if run.sticks_throughout:
-        status = "stuck"
-        reason = "the slider sticks throughout: the drive does not overcome friction"
+        return _result(SteadyMotion, run, none)
     velocity = found.displacement / run.period
     state = dict(zip(run.names, found.state.tolist(), strict=True))
-    answer = {"steady_velocity": velocity, "state": state}
-    return _result(SteadyMotion, status, reason, run, found, **answer)
+    motion = _result(SteadyMotion, run, found, steady_velocity=velocity, state=state)
+    if not run.sticks_throughout:
+        return motion
+    reason = "the slider sticks throughout: the drive does not overcome friction"
+    return replace(motion, status="stuck", reason=reason)
 
 
 def _runaway(run: FmuPeriodMap) -> NoPeriodicMotion | None:
@@ -166,7 +163,7 @@ class Blocking(SearchResult):
     no_fixed_point, not_unique or not_converged.
     """
 
-    searched, unit = "blocking_force", "N"
+    searched, unit, settled = "blocking_force", "N", "blocked"
     held = ("phase", "frequency_ratio")
     blocking_force: float | None = None
 
@@ -200,29 +197,24 @@ def find_blocking(
             )
         load, found = blocked_point(run, guess, scale, load, max(run.friction, 1e-12))
     except NoPeriodicMotion as none:
-        return _result(Blocking, none.status, none.reason, run, none)
-    status = "blocked" if found.stability == "stable" else found.stability
-    largest = f"{abs(found.multipliers[0]):.9g}"
-    reason = f"at this load the mean velocity is zero; the largest multiplier is {largest}"
-    return _result(Blocking, status, reason, run, found, blocking_force=load)
+        return _result(Blocking, run, none)
+    return _result(Blocking, run, found, blocking_force=load)
 
 
 def _result(
-    kind: type[Result],
-    status: str,
-    reason: str,
-    run: FmuPeriodMap,
-    found: FixedPoint | NoPeriodicMotion,
-    **answer: Any,
+    kind: type[Result], run: FmuPeriodMap, found: FixedPoint | NoPeriodicMotion, **answer: Any
 ) -> Result:
     """Return the result of a search, with the answer by name where something was `found`."""
+    if isinstance(found, FixedPoint):
+        stable, largest = found.stability == "stable", f"{abs(found.multipliers[0]):.9g}"
+        status = kind.settled if stable else found.stability
+        departures = f"departures from this motion {DEPARTURES[found.stability]}"
+        reason = f"{departures}; the largest multiplier is {largest}"
+        answer |= {"multipliers": tuple(found.multipliers.tolist()), "stable": stable}
+    else:
+        status, reason = found.status, found.reason
     if status in UNDECIDED and run.device.damping_ratio == 0.0:
         reason += " (damping_ratio = 0: the transient of the resonator never decays)"
-    if isinstance(found, FixedPoint):
-        answer |= {
-            "multipliers": tuple(found.multipliers.tolist()),
-            "stable": found.stability == "stable",
-        }
     valid = run.values.get("prediction_valid")
     return kind(
         *(status, reason, run.values[kind.searched], None if valid is None else valid == 1.0),

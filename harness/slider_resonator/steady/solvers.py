@@ -33,7 +33,8 @@ SINGULAR_STEPS = 4
 """Last steps with a singular Jacobian: a family of zeros may be curved."""
 KEEP = 0.05
 """Largest ratio of successive corrections for which the Jacobian is kept."""
-SMALLEST_DAMPING = 1.0 / 256.0
+DAMPINGS = tuple(2.0**-halvings for halvings in range(9))
+"""Shares of a correction that are tried, in this order."""
 ROUNDING = 100.0
 """Correction, in tolerances, that is accepted when it no longer decreases, by rounding."""
 FLAT = 1e-7
@@ -132,8 +133,7 @@ def solve(
         if iterations == MAX_ITERATIONS:
             raise unconverged("out of iterations")
         iterations += 1
-        damping = 1.0
-        while True:
+        for damping in DAMPINGS:
             trial = y + damping * correction
             trial_value = scaled(trial)
             contraction = float(np.linalg.norm(inverse @ trial_value)) / size
@@ -142,13 +142,11 @@ def solve(
                 break
             if size <= ROUNDING * tolerance:
                 return Root(y * scale, iterations, residual(), inverse)
-            damping /= 2.0
-            if damping < SMALLEST_DAMPING:
-                if not is_kept and residual() > FLAT * size:
-                    raise unconverged("no step brings it closer")
-                break  # a new Jacobian may bring it closer, or rounding alone is left
-        if damping < SMALLEST_DAMPING and not is_kept:
-            break
+        else:  # a new Jacobian may bring it closer, or rounding alone is left
+            if not is_kept and residual() > FLAT * size:
+                raise unconverged("no step brings it closer")
+            if not is_kept:
+                break
         is_kept = contraction <= KEEP
     determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
     for _ in range(SINGULAR_STEPS):
