@@ -5,22 +5,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.baseline.judge import (
+from slider_resonator.baseline.golden import (
     AGAINST,
-    THE_RUN,
-    TOLERANCE,
-    Golden,
-    compare_golden,
-    measure_golden,
-)
-from slider_resonator.baseline.store import (
     BUILT_IN,
     FMU_DIGEST,
     SCENE_DIGEST,
     SCENE_FILE,
+    THE_RUN,
+    TOLERANCE,
     At,
+    Golden,
     Recorded,
+    compare_golden,
     key,
+    measure_golden,
     provenance,
     read_recorded,
     recorded_scenes,

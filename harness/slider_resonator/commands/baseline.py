@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.baseline.judge import TOLERANCE
+from slider_resonator.baseline.golden import TOLERANCE
 from slider_resonator.baseline.work import accept, check, record
 from slider_resonator.commands.options import fmu_argument, scenes_option, time_limit_option
 from slider_resonator.commands.reports import (

@@ -9,10 +9,12 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from slider_resonator.baseline.judge import SIGNALS, Golden, compare_golden
-from slider_resonator.baseline.store import (
+from slider_resonator.baseline.golden import (
     DIGITS,
+    SIGNALS,
+    Golden,
     Recorded,
+    compare_golden,
     key,
     read_recorded,
     recorded_scenes,
