@@ -12,9 +12,13 @@ from slider_resonator.device.device import FULL
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.stressing.case import MARGIN, MIN_DIVISIBLE, Case
+from slider_resonator.stressing.invariants import BoundCheck, largest
 from slider_resonator.stressing.observe import MEAN, SIGNALS, Observation
-from slider_resonator.stressing.verdict import NO_REFERENCE, REFERENCE, BoundCheck, largest
 
+REFERENCE = "reference"
+"""Name of the check against a reference that shares no code with the FMU."""
+NO_REFERENCE = "no reference"
+"""Name of the check that reports why a reference gave up."""
 EXACT = 1e-10
 """Error of resolved motion by rounding, as a fraction of peaks, where events are the same."""
 AVERAGED = 1e-7

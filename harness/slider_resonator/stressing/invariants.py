@@ -1,20 +1,51 @@
-"""Bounds that hold for every motion of the device, whatever the parameters."""
+"""Bounds, and those that hold for every motion of the device, whatever the parameters."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.checks.natural_scale import fast_velocity
 from slider_resonator.stressing.case import MARGIN, Case
 from slider_resonator.stressing.observe import Observation
-from slider_resonator.stressing.verdict import BoundCheck, largest
 
 Exact = NDArray[np.longdouble]
 
 ROUNDING = float(np.finfo(float).eps)
 BOUND = 1e-9
 """Rounding allowed in a bound, as a fraction of the quantities in it."""
+
+
+@dataclass(frozen=True)
+class BoundCheck:
+    """One bound: the largest deviation found, in units of the allowed one.
+
+    `is_deviation` is false for counts and yes-or-no answers, which have no distance to a bound.
+    """
+
+    name: str
+    found: float
+    words: str = ""
+    is_deviation: bool = True
+
+    @property
+    def passed(self) -> bool:
+        """Whether the bound holds; it does not for NaN."""
+        return self.found <= 1.0
+
+
+def largest(name: str, off: Array, allowed: float | Array, what: str = "") -> BoundCheck:
+    """Return the check of the largest deviation `off`, of `what`; where 0 is allowed, it must be 0.
+
+    NaN breaks the bound.
+    """
+    off = np.abs(np.asarray(off, dtype=float))
+    shares = np.nan_to_num(off / np.maximum(allowed, np.finfo(float).tiny), nan=np.inf)
+    found = float(shares.max())
+    words = f"{what} off by up to {off.max():.3g}, {found:.3g} times the allowed"
+    return BoundCheck(name, found, words.lstrip())
 
 
 def finite(seen: Observation) -> BoundCheck:

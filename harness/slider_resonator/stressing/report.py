@@ -12,8 +12,7 @@ from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.stressing.case import MODELS, RANDOM, Case, name_of
-from slider_resonator.stressing.run import StressResult
-from slider_resonator.stressing.verdict import FAILED, MEANINGS, PASSED, Verdict
+from slider_resonator.stressing.run import FAILED, MEANINGS, PASSED, StressResult, Verdict
 
 GRIDS = (
     "<p>A cell of a grid has the largest deviation of a case over the allowed one. Point at it for "

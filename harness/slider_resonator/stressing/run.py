@@ -1,5 +1,7 @@
 """Running and judging cases in an FMU, which runs in processes of its own."""
 
+import re
+import shlex
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -8,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
@@ -15,32 +18,92 @@ from slider_resonator.fmu.opening import lacking, open_fmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.shown import Shown, Tabular
-from slider_resonator.stressing.case import RANDOM, Case
+from slider_resonator.stressing.case import RANDOM, Case, name_of
 from slider_resonator.stressing.comparisons import (
+    NO_REFERENCE,
+    REFERENCE,
     compare_with_reference,
     equalities,
     has_reference,
     is_sensitive,
 )
-from slider_resonator.stressing.invariants import finite, invariants
+from slider_resonator.stressing.invariants import BoundCheck, finite, invariants
 from slider_resonator.stressing.observe import Observation, observe
-from slider_resonator.stressing.verdict import (
-    FAILED,
-    NO_REFERENCE,
-    PASSED,
-    REFERENCE,
-    REFUSED,
-    SENSITIVE,
-    BoundCheck,
-    Verdict,
-    refused_by_name,
-    verdict_on,
-)
 
+PASSED = "passed"
+REFUSED = "refused by name"
+FAILED = "failed"
+SENSITIVE = "sensitive"
+MEANINGS = {
+    PASSED: "all is within its bounds",
+    REFUSED: "the FMU refused it, with name, value and what it must be",
+    FAILED: "a bound is broken, or the FMU crashed or hung",
+    SENSITIVE: "a random device whose reference, with values off by the allowed error, is as far",
+    NO_REFERENCE: "a random device whose reference could not follow the motion",
+}
+"""Verdict to what it means."""
+
+_NAMES = "|".join([*PARAMETERS, *INPUTS, "communicationStepSize"])
+_NAMED = re.compile(rf"\b({_NAMES}) = (\S+) refused\b.*\bmust ")
 MAX_RELATIVE_COST = 1000.0
 """Maximum cost of a step, per period it spans (at least 1), relative to a drive period.
 
 A step may have to tabulate friction, or to find events that nearly coincide."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The verdict on one case, the bounds behind it, and the reason where it did not pass."""
+
+    axis: str
+    value: str
+    model: str
+    verdict: str
+    reason: str = ""
+    checks: tuple[BoundCheck, ...] = ()
+    worst_step: float = 0.0
+    period_cost: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """Axis, value and model, as of the case."""
+        return f"{self.axis}: {self.value}: {self.model}"
+
+    @property
+    def cost_ratio(self) -> float:
+        """Worst cost of a step, per period it spans (at least 1), relative to a period."""
+        return self.worst_step / self.period_cost if self.period_cost > 0.0 else 0.0
+
+    @property
+    def nearest(self) -> BoundCheck | None:
+        """The deviation that is nearest to its bound, or farthest beyond it."""
+        deviations = [check for check in self.checks if check.is_deviation]
+        return max(deviations, key=lambda check: check.found, default=None)
+
+    def command(self, fmu: str) -> str:
+        """Return the command that runs the case again and prints its values."""
+        return shlex.join(("slider-resonator", "stress", fmu, "--case", self.name))
+
+
+def verdict_on(case: Case, verdict: str, reason: str = "") -> Verdict:
+    """Return a verdict on a case without checks: a refusal, a crash, an exceeded limit."""
+    return Verdict(case.axis, case.value, name_of(case.model), verdict, reason)
+
+
+def refused_by_name(case: Case, text: str) -> bool:
+    """Return whether a refusal names a variable or the step, its value and the requirement."""
+    found = _NAMED.search(text)
+    if found is None:
+        return False
+    name, value = found.groups()
+    if name == "communicationStepSize":
+        present = {hold.size for hold in (*case.holds, *case.other_holds)} | {case.period}
+    elif name in INPUTS:
+        present = {float(getattr(hold, name)) for hold in case.holds}
+    else:
+        first = float(getattr(case.device, name))
+        present = {dict(hold.tuned).get(name, first) for hold in case.holds}
+    return any(value == repr(one) for one in present)
 
 
 def judge(case: Case, seen: Observation) -> Verdict:

@@ -17,25 +17,22 @@ from slider_resonator.output.progress import no_progress
 from slider_resonator.stressing import comparisons
 from slider_resonator.stressing.axes import CHEAP, axis_cases
 from slider_resonator.stressing.case import MODELS, RANDOM, Case, Hold, name_of
+from slider_resonator.stressing.comparisons import NO_REFERENCE, REFERENCE
+from slider_resonator.stressing.invariants import BoundCheck
 from slider_resonator.stressing.observe import Observation, observe
 from slider_resonator.stressing.random_cases import IN_TURN, random_case
 from slider_resonator.stressing.report import write_stress_page
 from slider_resonator.stressing.run import (
+    FAILED,
     MAX_RELATIVE_COST,
+    PASSED,
+    REFUSED,
+    SENSITIVE,
     StressResult,
+    Verdict,
     applicable,
     judge,
     run_cases,
-)
-from slider_resonator.stressing.verdict import (
-    FAILED,
-    NO_REFERENCE,
-    PASSED,
-    REFERENCE,
-    REFUSED,
-    SENSITIVE,
-    BoundCheck,
-    Verdict,
 )
 from tests.harness.faulty_fmus import compiled, without_later_variables
 from tests.harness.golden import assert_page_as_before
