@@ -123,6 +123,11 @@ def _tuned_to(w: float) -> Settings:
     return {"drive_frequency": w, "resonator_frequency": w, "base_amplitude": AMPLITUDE * W / w}
 
 
+def _masses(resonator: float, slider: float) -> Settings:
+    """Return masses by their shares in that of table 1."""
+    return {"resonator_mass": MASS * resonator, "slider_mass": MASS * slider}
+
+
 def _held(model: Model, value: str) -> list[Limit]:
     """Return what holds a slider without drive under a load as great as its friction."""
     above = AROUND_ONE[value] - 1.0
@@ -197,9 +202,8 @@ def _drive_periods(periods: float, models: Sequence[Model]) -> Axis:
 
 
 ALPHAS = {"0": 0.0, **AROUND_ONE, "1 + 1 ulp": nextafter(1.0, 2.0), "2": 2.0, "100": 100.0}
-MASSES = {f"1e{n}": (10.0**n, 1.0 - 10.0**n) for n in (-12, -9, -6, -3)}
-MASSES |= {f"1 - 1e{n}": (1.0 - 10.0**n, 10.0**n) for n in (-1, -3, -6, -9)}
-"""Shares of resonator and slider in the total mass, which is kept."""
+MASSES = {f"1e{n}": _masses(10.0**n, 1.0 - 10.0**n) for n in (-12, -9, -6, -3)}
+MASSES |= {f"1 - 1e{n}": _masses(1.0 - 10.0**n, 10.0**n) for n in (-1, -3, -6, -9)}
 RESONANCES = {
     f"{cause} {where} {mode}, xi {xi:g}": {"damping_ratio": xi, "resonator_frequency": w}
     for mode, factor in (("stick", 1.0), ("slip", 1.0 / STICK_TO_SLIP))
@@ -236,10 +240,7 @@ MIXED = {
 }
 LATE = [Hold(2.0**-13, 300), Hold(2.0**-5, 3)]
 """At 1e12 s time is known to 2^-13 s, so the steps are multiples of it."""
-AROUND_LIMIT = {
-    **{"below": nextafter(FULL_FRICTION, 0.0), "at": FULL_FRICTION},
-    "above": nextafter(FULL_FRICTION, 1.0),
-}
+AROUND_LIMIT = dict(zip(("at", "below", "above"), _around(FULL_FRICTION).values(), strict=True))
 AT_REST = {"base_amplitude": 0.0, "phase": 0.0}
 CONSTANT_LOAD = {**AT_REST, "normal_amplitude": 0.0}
 GRAZING: dict[str, Settings] = {
@@ -264,14 +265,7 @@ AXES = (
     Axis("q", {f"1e{n}": {"base_amplitude": AMPLITUDE * 10.0**n / Q} for n in range(-6, 4)}),
     Axis("alpha", {**_each("normal_amplitude", ALPHAS), "infinite": {"normal_preload": 0.0}}),
     Axis("mu", _each("friction_coefficient", _texts(0.0, 1e-9, 1e-3, 1.0, 10.0))),
-    Axis(
-        "r_m",
-        {
-            text: {"resonator_mass": MASS * resonator, "slider_mass": MASS * slider}
-            for text, (resonator, slider) in MASSES.items()
-        }
-        | {"0": {"resonator_mass": 0.0}},
-    ),
+    Axis("r_m", {**MASSES, "0": {"resonator_mass": 0.0}}),
     Axis("xi", _each("damping_ratio", _texts(0.0, 1e-12, 0.999, 1.0, 1.5, 10.0, 100.0))),
     Axis("resonance", RESONANCES, CHEAP),
     Axis("critical damping", CRITICAL, COULOMB_RESOLVED + LUGRE_RESOLVED),
