@@ -126,11 +126,8 @@ BUILT_IN = "built in"
 TIME_KEYS = {"stop_time", "drive_periods", "step_size", "steps_per_period"}
 """Keys of [run] that say the same in several ways."""
 
-Provenance = Mapping[str, str]
-"""The recorded provenance, in the order of the file."""
 
-
-def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> Provenance:
+def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> dict[str, str]:
     """Return FMU, scene, host and tools; the scene's file as seen from the baseline's folder."""
     found = provenance_of(fmu)
     is_built_in = built_in_scenes().get(scene.name) == scene.files[0]
@@ -185,10 +182,10 @@ At = tuple[tuple[str, float], ...]
 
 @dataclass(frozen=True)
 class Recorded:
-    """Golden results at every point of a scene's sweep, and their provenance."""
+    """Golden results at every point of a scene's sweep; provenance in the order of its file."""
 
     points: Mapping[At, Golden]
-    provenance: Provenance
+    provenance: Mapping[str, str]
 
 
 def key(at: Mapping[str, float]) -> At:

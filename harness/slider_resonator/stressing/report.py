@@ -1,7 +1,6 @@
 """The result as a page of HTML, with a grid for each axis, as plain data and in words."""
 
 from collections.abc import Sequence
-from itertools import accumulate
 from pathlib import Path
 
 from slider_resonator.device.interface import INPUTS
@@ -135,12 +134,8 @@ def values_of(case: Case) -> str:
         f"    {len(case.sizes)} steps of {case.sizes.min():.3g} to {case.sizes.max():.3g} s from "
         f"{case.start_time:g} s on"
     )
-    before: dict[str, float] = {}
-    starts = accumulate((hold.duration for hold in case.holds), initial=0.0)
-    for start, hold in zip(starts, case.holds, strict=False):
-        now = dict(zip(INPUTS, hold.inputs, strict=True)) | dict(hold.tuned)
-        if now != before:
-            words = ", ".join(f"{name} = {value!r}" for name, value in now.items())
-            lines.append(f"    from {start!r} s on: {words}")
-        before = now
+    for held in case.held:
+        inputs = {name: getattr(held, name) for name in INPUTS} | dict(held.tuned)
+        words = ", ".join(f"{name} = {value!r}" for name, value in inputs.items())
+        lines.append(f"    from {held.start!r} s on: {words}")
     return "\n".join(lines)
