@@ -5,6 +5,7 @@ from math import isclose, isfinite
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
@@ -12,7 +13,7 @@ from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError, explained
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.shooting import PeriodicRun
-from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
+from slider_resonator.steady.solvers import NoPeriodicMotion
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 """The outputs that are states; the position does not matter, for nothing depends on it."""
@@ -76,7 +77,7 @@ class FmuPeriodMap(PeriodicRun):
         self.names = (*STATE, "bristle_deflection") if self.bends else STATE
         self._read = instance.block(["position", *STATE, "stick_fraction"])
 
-    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
         """Return states and travel; the deflection of a bristle is that at the end throughout."""
         initial = zip((f"initial_{name}" for name in self.names), state.tolist(), strict=True)
         self.instance.start({**self.given, **dict(initial), "load": load})

@@ -5,6 +5,7 @@ from contextlib import suppress
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.held_inputs import HeldInputs
@@ -12,12 +13,12 @@ from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.shooting import PeriodicRun, blocked_point, steady_point
-from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
+from slider_resonator.steady.solvers import NoPeriodicMotion
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))
 
-Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
+Simulate = Callable[[Device, Sequence[HeldInputs], Array], Trajectory]
 """A reference: device, held inputs and times (n,) to its motion."""
 
 
@@ -68,7 +69,7 @@ class ReferenceMotion(PeriodicRun):
                 return blocked_point(self, *self.warm_up(0.0, 0.0), 0.0, size)[0]
         return None
 
-    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
         """Return states and travel at the times."""
         initial = dict.fromkeys(_INITIAL, 0.0)
         initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}

@@ -10,19 +10,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from math import ceil, tau
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.device_average import full_friction
 from slider_resonator.steady.solvers import (
     A_FAMILY,
-    Matrix,
     NoPeriodicMotion,
     PeriodMap,
-    Vector,
     bracketed_state,
     central_jacobian,
     solve,
@@ -44,8 +42,6 @@ DISTANCE = 1e-3
 CORRECTIONS = 2
 """Newton steps that make a neighbour periodic in the fast directions."""
 
-Stability = Literal["stable", "unstable", "neutral"]
-
 
 @dataclass(frozen=True)
 class FixedPoint:
@@ -56,15 +52,15 @@ class FixedPoint:
     largest change of the state over the period in units of the scale.
     """
 
-    state: Vector
+    state: Array
     displacement: float
     iterations: int
     residual: float
     multipliers: NDArray[np.complex128]
 
     @property
-    def stability(self) -> Stability:
-        """Whether small departures from the motion decay, grow, or stay."""
+    def stability(self) -> str:
+        """Whether small departures decay, grow, or stay: stable, unstable or neutral."""
         largest = float(np.abs(self.multipliers).max())
         if largest > 1.0 + NEUTRAL:
             return "unstable"
@@ -72,7 +68,7 @@ class FixedPoint:
 
 
 def fixed_point(
-    period_map: PeriodMap, guess: Vector, scale: Vector, tolerance: float = TOLERANCE
+    period_map: PeriodMap, guess: Array, scale: Array, tolerance: float = TOLERANCE
 ) -> FixedPoint:
     """Find a state that the map returns to, starting from `guess` (n,).
 
@@ -80,7 +76,7 @@ def fixed_point(
     of it. Raises NoPeriodicMotion where there is none.
     """
 
-    def change(state: Vector) -> Vector:
+    def change(state: Array) -> Array:
         return period_map(state)[0] - state
 
     root = solve(change, guess, scale, tolerance=tolerance)
@@ -97,7 +93,7 @@ def fixed_point(
     return FixedPoint(root.x, displacement, root.iterations, root.residual, multipliers)
 
 
-def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
+def _multipliers(change_jacobian: Array) -> NDArray[np.complex128]:
     """Return the eigenvalues of the map, largest first, from the Jacobian of its change."""
     size = len(change_jacobian)
     values = np.linalg.eigvals(change_jacobian + np.eye(size)).astype(np.complex128)
@@ -105,7 +101,7 @@ def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
 
 
 def _one_sided_multipliers(
-    change: Callable[[Vector], Vector], x: Vector, jacobian: Matrix, scale: Vector
+    change: Callable[[Array], Array], x: Array, jacobian: Array, scale: Array
 ) -> tuple[float, float] | None:
     """Return the slowest multiplier below and above the zero `x` (n,) of `change`.
 
@@ -168,14 +164,14 @@ class PeriodicRun(ABC):
         return full_friction(self.device, self.phase, self.ratio)
 
     @abstractmethod
-    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
         """Return states (m, n) and travel (m,), in m, at times (m,), in s, under a load (N).
 
         The run begins in a state (n,) at theta = psi = 0 and ends with the last of the times, a
         whole number of drive periods later.
         """
 
-    def scale(self, sizes: Vector) -> Vector:
+    def scale(self, sizes: Array) -> Array:
         """Return the scale of each entry of the state from its largest magnitude, both (n,).
 
         That of a velocity is at least its change by friction in a drive period.
@@ -187,12 +183,12 @@ class PeriodicRun(ABC):
             scale[-1] = self.device.friction_coefficient / self.device.bristle_stiffness
         return scale
 
-    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
+    def __call__(self, state: Array, load: float) -> tuple[Array, float]:
         """Return state (n,) and displacement (m) after a common period under a load (N)."""
         states, travel = self.run(state, load, np.array([self.period]))
         return states[-1], float(travel[-1])
 
-    def warm_up(self, velocity: float, load: float) -> tuple[Vector, Vector]:
+    def warm_up(self, velocity: float, load: float) -> tuple[Array, Array]:
         """Run some periods with the resonator at rest and the slider at `velocity` (m/s).
 
         Return the state (n,) after them, shifted to that mean velocity over a drive period, and the
@@ -225,7 +221,7 @@ def steady_point(run: PeriodicRun, velocity: float, load: float) -> FixedPoint:
 
 
 def blocked_point(
-    run: PeriodicRun, guess: Vector, scale: Vector, load: float, load_scale: float
+    run: PeriodicRun, guess: Array, scale: Array, load: float, load_scale: float
 ) -> tuple[float, FixedPoint]:
     """Find the load of the repeating motion without displacement over a period, near `load` (N).
 
@@ -236,7 +232,7 @@ def blocked_point(
     displacement_scale = float(scale[0]) * run.period
     scale = np.append(scale, load_scale)
 
-    def change(unknowns: Vector) -> Vector:
+    def change(unknowns: Array) -> Array:
         state, load = unknowns[:-1], float(unknowns[-1])
         end, displacement = run(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)

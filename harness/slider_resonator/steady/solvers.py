@@ -17,11 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Vector = NDArray[np.float64]
-Matrix = NDArray[np.float64]
-PeriodMap = Callable[[Vector], tuple[Vector, float]]
+from slider_resonator.arrays import Array
+
+PeriodMap = Callable[[Array], tuple[Array, float]]
 """State (n,) at the start of a period -> state (n,) at its end, displacement over it."""
 
 DIFFERENCE = 1e-4
@@ -67,14 +66,14 @@ class NoPeriodicMotion(Exception):
 class Root:
     """A zero `x` (n,); `residual` is the largest function value left, in units of the scale."""
 
-    x: Vector
+    x: Array
     iterations: int
     residual: float
-    inverse: Matrix
+    inverse: Array
     """Inverse of the scaled Jacobian (n, n)."""
 
 
-def central_jacobian(function: Callable[[Vector], Vector], x: Vector, scale: Vector) -> Matrix:
+def central_jacobian(function: Callable[[Array], Array], x: Array, scale: Array) -> Array:
     """Return the Jacobian (n, n) at `x` by central differences; `scale` (n,) is that of `x`.
 
     Central, because their error is of second order in a step that must stay well above rounding.
@@ -85,12 +84,12 @@ def central_jacobian(function: Callable[[Vector], Vector], x: Vector, scale: Vec
 
 
 def solve(
-    function: Callable[[Vector], Vector],
-    guess: Vector,
-    scale: Vector,
+    function: Callable[[Array], Array],
+    guess: Array,
+    scale: Array,
     *,
     tolerance: float = 1e-11,
-    inverse: Matrix | None = None,
+    inverse: Array | None = None,
 ) -> Root:
     """Find a zero of `function`, (n,) -> (n,) and finite, the change of a state over a period.
 
@@ -102,7 +101,7 @@ def solve(
     there is none.
     """
 
-    def scaled(y: Vector) -> Vector:
+    def scaled(y: Array) -> Array:
         return function(y * scale) / scale
 
     def residual() -> float:
@@ -171,14 +170,14 @@ EXACT = 1e-14
 """Last correction, in units of the scale, of fast states that are found to rounding."""
 
 
-def bracketed_state(period_map: PeriodMap, guess: Vector, scale: Vector) -> Vector | None:
+def bracketed_state(period_map: PeriodMap, guess: Array, scale: Array) -> Array | None:
     """Return a state (n,) that the map returns to, near enough for Newton, or None.
 
     `guess` (n,) starts the fast entries, `scale` (n,) is the typical size of each entry.
     """
     state, inverse = guess.copy(), None
 
-    def fast_change(fast: Vector) -> Vector:
+    def fast_change(fast: Array) -> Array:
         return period_map(np.append(state[0], fast))[0][1:] - fast
 
     def slow_change(slow: float) -> float:

@@ -34,7 +34,7 @@ class Observation:
     """
 
     outputs: Mapping[str, Array] = field(default_factory=dict)
-    others: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    others: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
     replayed: bool = True
     worst_step: float = 0.0
     period_cost: float = 0.0
@@ -56,7 +56,7 @@ def observe(instance: Instance, case: Case) -> Observation:
         if case.start_time:
             others["from time 0"] = replace(case, start_time=0.0)
         ends = {
-            name: {output: float(values[-1]) for output, values in _run(instance, other)[0].items()}
+            name: {output: values[-1:] for output, values in _run(instance, other)[0].items()}
             for name, other in others.items()
         }
         size = min(case.period, case.duration)

@@ -6,6 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.steady.shooting import (
     PeriodicRun,
@@ -14,10 +15,8 @@ from slider_resonator.steady.shooting import (
     steady_point,
 )
 from slider_resonator.steady.solvers import (
-    Matrix,
     NoPeriodicMotion,
     PeriodMap,
-    Vector,
     bracketed_state,
     solve,
 )
@@ -27,7 +26,7 @@ from slider_resonator.steady.solvers import (
 def test_scales_do_not_change_the_root_nor_the_work(scales: tuple[float, float]) -> None:
     size = np.array(scales)
 
-    def function(x: Vector) -> Vector:
+    def function(x: Array) -> Array:
         y = x / size
         return np.asarray(size * [y[0] ** 2 + y[1] ** 2 - 5.0, y[0] * y[1] - 2.0])
 
@@ -45,7 +44,7 @@ def test_scales_do_not_change_the_root_nor_the_work(scales: tuple[float, float])
     ],
 )
 def test_damped_steps_converge(
-    function: Callable[[Vector], Vector], start: float, tolerance: float, error: float
+    function: Callable[[Array], Array], start: float, tolerance: float, error: float
 ) -> None:
     root = solve(function, np.array([start]), np.ones(1), tolerance=tolerance)
     assert abs(root.x[0]) < error
@@ -59,7 +58,7 @@ def test_singular_jacobian_has_a_residual_only_without_a_zero(push: float, statu
     assert none.value.residual == pytest.approx(push, abs=1e-12)
 
 
-def saturated_map(state: Vector) -> tuple[Vector, float]:
+def saturated_map(state: Array) -> tuple[Array, float]:
     """A drift that saturates outside |v| < 1 with vertical tangents, beside a fast oscillator."""
     v, y, u = state
     inside = float(np.clip(v + 0.1 * y, -1.0, 1.0))
@@ -90,7 +89,7 @@ def test_there_is_no_bracket(period_map: PeriodMap, size: int) -> None:
 def test_bracketing_renews_its_jacobian_for_a_bristle_state() -> None:
     """As a soft bristle does: one Jacobian does not serve for all velocities."""
 
-    def period_map(state: Vector) -> tuple[Vector, float]:
+    def period_map(state: Array) -> tuple[Array, float]:
         v, bend = state
         held = np.exp(-abs(v))
         return np.array([v + 1e-3 * (0.3 - np.tanh(v)), bend * held + (1.0 - held) * v]), v
@@ -109,7 +108,7 @@ def test_linear_contraction_is_solved_by_one_jacobian(slow: float) -> None:
     matrix = basis @ np.diag([slow, 0.2]) @ np.linalg.inv(basis)
     evaluations = []
 
-    def period_map(state: Vector) -> tuple[Vector, float]:
+    def period_map(state: Array) -> tuple[Array, float]:
         evaluations.append(state)
         return target + matrix @ (state - target), 2.0 * state[0]
 
@@ -122,11 +121,11 @@ def test_linear_contraction_is_solved_by_one_jacobian(slow: float) -> None:
     assert len(evaluations) <= 20, "a linear map needs one Jacobian and both neighbours"
 
 
-def kinked(below: float, above: float) -> Callable[[Vector], tuple[Vector, float]]:
+def kinked(below: float, above: float) -> Callable[[Array], tuple[Array, float]]:
     """A slow direction with one multiplier below the fixed point and one above, and a fast one."""
     basis = np.array([[1.0, 0.3], [-0.2, 1.0]])
 
-    def period_map(state: Vector) -> tuple[Vector, float]:
+    def period_map(state: Array) -> tuple[Array, float]:
         slow, fast = np.linalg.solve(basis, state - 0.4)
         end = np.array([slow * (above if slow > 0.0 else below), 0.2 * fast + 0.1 * slow**2])
         return basis @ end + 0.4, 0.0
@@ -159,7 +158,7 @@ def test_saturated_drift_has_no_fixed_point() -> None:
     ("multiplier", "stability"), [(0.999, "stable"), (1.2, "unstable"), (-1.0, "neutral")]
 )
 def test_stability_follows_the_largest_multiplier(multiplier: float, stability: str) -> None:
-    def period_map(state: Vector) -> tuple[Vector, float]:
+    def period_map(state: Array) -> tuple[Array, float]:
         return np.array([multiplier, 0.1]) * state, 0.0
 
     found = fixed_point(period_map, np.array([0.5, 0.5]), ONES)
@@ -173,14 +172,14 @@ class _Slider(PeriodicRun):
     device = Device(drive_frequency=pi)
     drive_periods = 1
 
-    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
         drift = 0.01 * (0.1 - load - np.clip(state[0], -0.5, 0.5))
         return np.array([[state[0] + drift, 0.3 * state[1]]]), times * state[0]
 
-    def scale(self, sizes: Vector) -> Vector:
+    def scale(self, sizes: Array) -> Array:
         return np.ones_like(sizes)
 
-    def warm_up(self, velocity: float, load: float) -> tuple[Vector, Vector]:
+    def warm_up(self, velocity: float, load: float) -> tuple[Array, Array]:
         return np.array([velocity + 0.01, 0.1]), np.ones(2)
 
 
@@ -208,7 +207,7 @@ def test_bounds_that_change_sides_by_rounding_are_no_bracket() -> None:
     """Each bound is computed again, and then the state grows at both."""
     grows = iter([True, False, True, True])
 
-    def period_map(state: Vector) -> tuple[Vector, float]:
+    def period_map(state: Array) -> tuple[Array, float]:
         return state + (1e-16 if next(grows) else -1e-16), 0.0
 
     assert bracketed_state(period_map, np.zeros(1), np.full(1, 1e-3)) is None
