@@ -1,4 +1,4 @@
-"""Candidates against the allowed errors, and the answer: the chosen one, and those ruled out."""
+"""Candidates, their errors against the allowed ones, and the answer: chosen and ruled out."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,15 +6,18 @@ from math import isfinite
 from typing import Any
 
 from slider_resonator.checks.measures import share_of
-from slider_resonator.choosing.candidate import Candidate, uses_tolerance
 from slider_resonator.choosing.errors import ErrorEstimate
-from slider_resonator.device.model import Model
+from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.key_table import units_of
 from slider_resonator.scenes.needs import NeedTable
 from slider_resonator.scenes.scene import Scene
 
+TOLERANCES = tuple(10.0**-digits for digits in range(3, 13))
+"""Tolerances of LuGre friction and of leaps, from the cheapest on."""
+START_TOLERANCE = 1e-8
+"""The FMU's start value, answered where the model has no use for a tolerance."""
 MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""
 SAME_COST = 1.05
@@ -39,6 +42,33 @@ PROBES = {
 def error_text(error: float) -> str:
     """Return a measured error for people."""
     return f"{error:.3g}" if isfinite(error) else "no bound"
+
+
+def uses_tolerance(model: Model) -> bool:
+    """Whether a model integrates a bristle or leaps over periods; else its accuracy is its own."""
+    return model.leaps or (model.friction_law == LUGRE and model.fidelity > 0)
+
+
+def tolerances(model: Model) -> tuple[float, ...]:
+    """Return the tolerances to choose from, descending."""
+    return TOLERANCES if uses_tolerance(model) else (START_TOLERANCE,)
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A model with the tolerance (1) and communication step (s) it is run with.
+
+    `step` is None where nothing is run.
+    """
+
+    model: Model
+    tolerance: float
+    step: float | None
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The FMU parameters that make it."""
+        return {**self.model.parameters, "tolerance": self.tolerance}
 
 
 @dataclass(frozen=True)

@@ -2,22 +2,24 @@
 
 import time
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from math import inf
+from math import inf, isfinite
 from pathlib import Path
 
-from slider_resonator.choosing.candidate import (
-    MAX_PERIODS,
+from slider_resonator.choosing.choice import (
+    SAME_COST,
     START_TOLERANCE,
     Candidate,
-    coarsest,
+    Choice,
+    Evaluation,
+    RuledOut,
+    cheapest,
     tolerances,
 )
-from slider_resonator.choosing.choice import SAME_COST, Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
-from slider_resonator.choosing.probe import HEAD_PERIODS, Probe, find, steady_error
+from slider_resonator.choosing.probe import HEAD_PERIODS, MAX_PERIODS, Probe, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
 from slider_resonator.fmu.instance import Instance
@@ -258,3 +260,27 @@ class Choosing:
             inputs=self.probe.inputs,
             jumps=any(signal.jumps for signal in self.scene.signals.values()),
         )
+
+
+STALLED = 0.7
+"""A refinement that leaves more than this share of the error does not converge."""
+PATIENCE = 2
+"""Refinements in turn that must stall: coarse ones can be outside the range of convergence."""
+
+
+def coarsest(excess: Callable[[int], float], count: int, fine: int = 0) -> int | None:
+    """Return the smallest index below `count` with `excess(index)` <= 1, None where none has.
+
+    `excess` is error over allowed error. Gives up where the error does not fall, but not above
+    index `fine`: coarser ones may miss what happens.
+    """
+    stalled, before = 0, inf
+    for index in range(count):
+        found = excess(index)
+        if found <= 1.0:
+            return index
+        stalled = stalled + 1 if isfinite(found) and found > STALLED * before else 0
+        if stalled >= PATIENCE and index >= fine:
+            return None
+        before = found
+    return None

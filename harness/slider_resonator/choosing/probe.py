@@ -7,12 +7,12 @@ import time
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
-from math import ceil, inf
+from math import ceil, floor, inf, log2
 
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choosing.candidate import MAX_PERIODS, SIGNAL_NEEDS, Candidate, step_ladder
+from slider_resonator.choosing.choice import Candidate
 from slider_resonator.choosing.errors import (
     ROUNDING,
     ErrorEstimate,
@@ -57,8 +57,6 @@ def timed_run(
     return record, record.start_cpu + record.step_cpu
 
 
-EXISTS = {"steady_velocity": ("steady", "stuck"), "blocking_force": ("blocked",)}
-"""Outcomes of a search at which a device settles."""
 SOLVED = 1e-10
 """Accuracy of a solution by shooting, as a share of its size, but for that of the integration."""
 
@@ -82,7 +80,7 @@ def find(
         return SteadyAnswer(time.process_time() - began, found)
     search = SEARCHES[name](instance, given)
     seconds = time.process_time() - began
-    value: float | None = getattr(search, name) if search.status in EXISTS[name] else None
+    value = search.value if search.status in (search.settled, "stuck") else None
     return SteadyAnswer(seconds, value, f"{search.status}: {search.reason}", search.periods)
 
 
@@ -158,6 +156,12 @@ HEAD_PERIODS = 300.0
 STEPS, MIN_POINTS, MAX_POINTS = 8, 4000, 20_000
 """Points of a reference in a step of the candidate, and in total, where inputs must be held; at
 least two in a step."""
+MAX_PERIODS = 10_000.0
+"""Drive periods in a step of resolved motion: FMUs bound the work of a step."""
+SIGNAL_NEEDS = frozenset({"position", "velocity", "mean_velocity_throughout", "event_times"})
+"""Needs that are judged at every step of the scene, not at its end only."""
+FINEST = 64
+"""Maximum steps in a drive period."""
 
 
 class Probe:
@@ -182,14 +186,41 @@ class Probe:
         leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
         self._leaps = [Candidate(leaps, tolerance, None) for tolerance in LEAP_TOLERANCES]
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
-        self.ladder: tuple[float | None, ...] = (None,)
-        if self.run_needs:
-            most = MAX_FOLLOWED_STEPS if can_interpolate else MAX_STEPS
-            self.ladder = step_ladder(scene, self.run_needs, most, varying=self.varying)
+        self.ladder: tuple[float | None, ...] = self._steps() if self.run_needs else (None,)
         self._finest_step = self.ladder[-1] or self.duration
         self.drive_periods = 0.0
         """Drive periods that the FMU has resolved so far, with those of searches."""
         self._references: dict[float, Record] = {}
+
+    def _steps(self) -> tuple[float, ...]:
+        """Return the steps (s) to choose from, descending.
+
+        Signals are needed at every step of the scene, which is then the longest; a beat needs some
+        steps each, and how many is tried; a number at the end needs one step, or as many as the FMU
+        takes. Where something varies and is held, or a beat is read, steps are powers of two of the
+        scene's own, in a limited number. Input jumps are communication points in any case.
+        """
+        period, duration = self.scene.drive_period, self.duration
+        own = self.scene.step_size or duration
+        allowed = MAX_PERIODS * period
+        if SIGNAL_NEEDS & self.run_needs.keys():
+            longest = min(duration, own)
+        elif self.varying or "beat" in self.run_needs:
+            longest = min(duration, allowed)
+        else:
+            own = longest = duration
+        shortest = min(longest, allowed)
+        if "beat" in self.run_needs:  # 4 to 8 steps in one show it, 64 to 128 in a run are enough
+            frequency = beat_frequency(self.scene)
+            beat = 1.0 / frequency if frequency else inf
+            shortest = min(shortest, duration / 128, beat / 8.0)
+            longest = min(longest, duration / 64, beat / 4.0)
+        first = own * 2.0 ** floor(log2(longest / own * (1.0 + 1e-9)))
+        halvings = ceil(log2(first / shortest))
+        if self.varying:
+            most = MAX_FOLLOWED_STEPS if self.instance.fmu.interpolates else MAX_STEPS
+            halvings = floor(log2(first / min(first, max(period / FINEST, duration / most))))
+        return tuple(first * 2.0**-index for index in range(halvings + 1))
 
     def measure(self, candidate: Candidate) -> tuple[Estimates, float]:
         """Return errors by need, and cost (s), of a run with a candidate.

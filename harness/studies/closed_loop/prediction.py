@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fmpy.ssp.ssd import read_ssd
 
-from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate
+from slider_resonator.choosing.choice import START_TOLERANCE, Candidate
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.device.model import Model

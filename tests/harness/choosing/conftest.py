@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from slider_resonator.choosing import choosing, probe
-from slider_resonator.choosing.candidate import Candidate
+from slider_resonator.choosing.choice import Candidate
 from slider_resonator.choosing.probe import find, timed_run
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule

@@ -4,8 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.choosing.candidate import Candidate
-from slider_resonator.choosing.choice import Evaluation, cheapest
+from slider_resonator.choosing.choice import Candidate, Evaluation, cheapest
 from slider_resonator.choosing.choosing import choose, choose_with
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.device.model import Model

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from slider_resonator.choosing.candidate import Candidate, tolerances
-from slider_resonator.choosing.choice import Choice
+from slider_resonator.choosing.choice import Candidate, Choice, tolerances
 from slider_resonator.choosing.choosing import Choosing, choose_with
 from slider_resonator.choosing.errors import Estimates, Readings
 from slider_resonator.choosing.probe import exact_schedule, find, steady_error, timed_run

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from slider_resonator.arrays import Array
 from slider_resonator.choosing import probe as probes
-from slider_resonator.choosing.candidate import Candidate, coarsest
-from slider_resonator.choosing.choosing import choose_with
+from slider_resonator.choosing.choice import Candidate
+from slider_resonator.choosing.choosing import choose_with, coarsest
 from slider_resonator.choosing.errors import ErrorEstimate, Readings, beat_frequency, unseen_beat
 from slider_resonator.choosing.probe import CAUTION, Probe, exact_schedule, must_hold, steady_error
 from slider_resonator.device.model import Model
