@@ -37,11 +37,7 @@ def repeating_periods(ratio: float, drive_period: float, max_denominator: int) -
     if distance < SLOW:
         beat = distance / drive_period
         raise NoPeriodicMotion("slow_beat", f"{why}; slow beat at {beat:.6g} Hz")
-    raise NoPeriodicMotion(
-        "no_common_period",
-        f"{why}, so that drive and normal force never repeat together; --max-denominator allows "
-        "a larger q",
-    )
+    raise NoPeriodicMotion("no_common_period", f"{why}; --max-denominator allows a larger q")
 
 
 class FmuPeriodMap(PeriodicRun):
@@ -50,9 +46,9 @@ class FmuPeriodMap(PeriodicRun):
     An FMU is run with parameters and inputs as `given`. What is in force is read back from it:
     `device`, and by name inputs and its own predictions, `values`. The state has the entries
     `names`: those of `STATE` and, where there is a LuGre bristle that matters, its deflection.
-    `periods` counts every drive period that has been simulated, `stick_fraction` is that of the
-    last one. Raises FmuError for a drive frequency without drive periods, and as `Instance.start`
-    does.
+    `periods` counts every drive period that has been simulated; `sticks_throughout` says whether
+    the slider stuck throughout the last one, as far as rounding tells. Raises FmuError for a drive
+    frequency without drive periods, and as `Instance.start` does.
     """
 
     def __init__(self, instance: Instance, given: Mapping[str, float]) -> None:
@@ -70,7 +66,7 @@ class FmuPeriodMap(PeriodicRun):
         self.device = Device().tuned(device.items())
         self.phase, self.ratio = self.values["phase"], self.values["frequency_ratio"]
         self.periods = 0
-        self.stick_fraction = 0.0
+        self.sticks_throughout = False
         # Averaged motion keeps no bristle.
         is_lugre = self.device.friction_law == 1 and self.device.fidelity != 0
         self.bends = is_lugre and self.friction > 0.0 and self.device.bristle_stiffness > 0.0
@@ -95,17 +91,12 @@ class FmuPeriodMap(PeriodicRun):
                 f"{self.instance.fmu.path.name} at t = {end:.9g} s: output is {read[-1]}"
             )
         self.periods += round(end / self.drive_period)
-        self.stick_fraction = read[-1][4]
+        self.sticks_throughout = abs(read[-1][4] - 1.0) <= 1e-10
         rows = np.array(read)[1 + nearest(grid, times)]
         states, travel = rows[:, 1:4], rows[:, 0] - read[0][0]
         if self.bends:
             states = np.column_stack([states, np.full(len(rows), self._deflection())])
         return states, travel
-
-    @property
-    def sticks_throughout(self) -> bool:
-        """Whether the slider stuck throughout the last period, as far as rounding tells."""
-        return abs(self.stick_fraction - 1.0) <= 1e-10
 
     def _deflection(self) -> float:
         """Return the deflection z (m) of the bristle, and end the run.
@@ -121,7 +112,7 @@ class FmuPeriodMap(PeriodicRun):
             raise FmuError(
                 f"{self.instance.fmu.path.name} at t = {self.instance.time:.9g} s: normal_force = "
                 f"{normal!r} N must be the normal_preload of {FIRM['normal_preload']!r} N just "
-                f"set, and friction_force = {friction!r} N a finite number"
+                f"set, and friction_force = {friction!r} N finite"
             )
         damping = self.device.bristle_damping
         held = friction / (self.device.friction_faces * normal) - damping * velocity

@@ -190,11 +190,8 @@ def find_blocking(
         run.drive_periods = repeating_periods(run.ratio, run.drive_period, max_denominator)
         guess, scale = run.warm_up(0.0, load)
         if run.sticks_throughout:
-            raise NoPeriodicMotion(
-                "stuck",
-                f"the slider sticks throughout at load = {load:.6g} N: every load that friction "
-                "holds stops it, so that no single one is the blocking force",
-            )
+            sticks = f"the slider sticks throughout at load = {load:.6g} N"
+            raise NoPeriodicMotion("stuck", f"{sticks}: every load that friction holds stops it")
         load, found = blocked_point(run, guess, scale, load, max(run.friction, 1e-12))
     except NoPeriodicMotion as none:
         return _result(Blocking, run, none)

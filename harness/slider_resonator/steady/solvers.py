@@ -155,13 +155,8 @@ def solve(
             break
     if residual() <= FAMILY:
         raise NoPeriodicMotion("not_unique", A_FAMILY, iterations, residual())
-    raise NoPeriodicMotion(
-        "no_fixed_point",
-        "the state drifts by the same amount in every period, whatever its start "
-        f"({residual():.3g} of its scale): no motion repeats",
-        iterations,
-        residual(),
-    )
+    drifts = f"the state drifts by {residual():.3g} of its scale in every period: no motion repeats"
+    raise NoPeriodicMotion("no_fixed_point", drifts, iterations, residual())
 
 
 DOUBLINGS = 6

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import nextafter, pi, sqrt, tau
 from random import Random
+from typing import Any
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS
@@ -89,14 +90,14 @@ class Axis:
     def cases(self) -> Iterator[Case]:
         """Yield all values, each by all models."""
         for value, settings in self.values.items():
-            inputs = {name: settings[name] for name in settings if name in INPUTS}
+            inputs: dict[str, Any] = {n: settings[n] for n in settings if n in INPUTS}
             parameters = {name: settings[name] for name in settings if name not in INPUTS}
             for model in self.models:
                 if self.steps is None:
                     steps = usual_steps(model, tau / parameters.get("drive_frequency", W))
                 else:
                     steps = self.steps(model, value)
-                holds = tuple(hold.under(inputs) for hold in steps)
+                holds = tuple(replace(hold, **inputs) for hold in steps)
                 limits = tuple(self.limits.get((value, model), ()))
                 yield Case(self.name, value, model, parameters, holds, self.start_time, limits)
 
@@ -174,8 +175,8 @@ def _long(model: Model, first_order: float, second_order: float) -> float:
 def _steps_of_late_jump(model: Model, value: str) -> list[Hold]:
     """Return a few long steps, and shorter ones after them."""
     before = Hold(_long(model, 400.0, 40.0), 4)
-    after = replace(before, size=before.size / 20.0, count=20)
-    return [before, after.under({value: JUMPS[value]})]
+    jump: dict[str, Any] = {value: JUMPS[value]}
+    return [before, replace(before, size=before.size / 20.0, count=20, **jump)]
 
 
 def _power_of_ten(_: Model, value: str) -> list[Hold]:

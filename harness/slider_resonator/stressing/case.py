@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 from math import tau
-from typing import Any
 
 import numpy as np
 
@@ -45,11 +44,6 @@ class Hold:
     def inputs(self) -> tuple[float, float, float]:
         """Phase, load, frequency_ratio."""
         return self.phase, self.load, self.frequency_ratio
-
-    def under(self, inputs: Mapping[str, float]) -> "Hold":
-        """Return the same steps with some inputs, by name, replaced."""
-        changed: dict[str, Any] = dict(inputs)
-        return replace(self, **changed)
 
     @property
     def duration(self) -> float:

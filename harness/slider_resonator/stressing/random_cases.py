@@ -28,7 +28,6 @@ SECOND_ORDER_PERIODS = (20.0, 800.0)
 """The same with averages of second order, whose reference is resolved."""
 SECOND_ORDER_STEPS = 4
 """Most steps of half of these runs: long ones, of which periods are leapt over."""
-LEAP_TOLERANCES = (1e-9, 1e-5)
 FRICTION_SHARES = (1e-4, 0.03)
 """Friction over the drive force with averages of second order: slow motion."""
 MIN_DAMPING = 0.005
@@ -110,7 +109,7 @@ def _light_friction(random: Random, values: Mapping[str, float]) -> dict[str, fl
     return parameters | {
         "normal_preload": preload,
         "normal_amplitude": preload * varies,
-        "tolerance": decades(random, *map(log10, LEAP_TOLERANCES)),
+        "tolerance": decades(random, -9.0, -5.0),
     }
 
 

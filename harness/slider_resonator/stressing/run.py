@@ -247,10 +247,9 @@ def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
         and not (equal_only and len({hold.size for hold in case.holds}) > 1)
     ]
     if not chosen:
-        one = cases[0].name if len(cases) == 1 else f"none of {number_of(len(cases), 'case')}"
         lacks = ", ".join(lacking(fmu))
         why = f"it lacks {lacks}" if lacks else "it takes equal steps only"
-        raise FmuError(f"{fmu}: no case applies to this FMU: {one} needs more; {why}")
+        raise FmuError(f"{fmu}: no case applies to this FMU: {why}")
     return chosen
 
 
