@@ -35,8 +35,6 @@ from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 WARM_UP = {"fidelity": 2.0, "friction_law": float(COULOMB)}
 """A model that prepares nothing which another one could use."""
-WARM_UP_STEP = 1e-3
-"""Share of the first communication step."""
 
 
 def timed_run(
@@ -44,11 +42,11 @@ def timed_run(
 ) -> tuple[Record, float]:
     """Return a run and its CPU time (s), in a new instance: an old one may keep tables.
 
-    The host's own first calls are made before. Raises FmuError or Refusal where the FMU cannot run
-    it, or gives what is not finite.
+    The host's own first calls are made before, in a small part of the first step. Raises FmuError
+    or Refusal where the FMU cannot run it, or gives what is not finite.
     """
     instance.recreate()
-    first = replace(schedule, times=schedule.times[:2] * WARM_UP_STEP)
+    first = replace(schedule, times=schedule.times[:2] * 1e-3)
     run(instance, {**parameters, **WARM_UP}, first, outputs=SIGNALS)
     record = run(instance, parameters, schedule, outputs=SIGNALS)
     for name in SIGNALS:
@@ -141,8 +139,6 @@ LONGEST = 60.0
 """CPU time (s) of a resolved run of a whole scene, where leaps do not serve."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
-FINEST_TOLERANCE = 1e-13
-"""Tolerance of the resolved LuGre device."""
 LEAP_TOLERANCES = (1e-9, 1e-11)
 """Tolerances of two runs with leaps, whose difference bounds the error of the finer one."""
 TRUSTED = 0.1
@@ -182,7 +178,7 @@ class Probe:
         passes_on = scene.run is not None and scene.run.interpolate
         self.varying = must_hold(scene, interpolates=passes_on)
         self.reference_model = Model(2, scene.device.friction_law)
-        self.finest = Candidate(self.reference_model, FINEST_TOLERANCE, None)
+        self.finest = Candidate(self.reference_model, 1e-13, None)
         leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
         self._leaps = [Candidate(leaps, tolerance, None) for tolerance in LEAP_TOLERANCES]
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)

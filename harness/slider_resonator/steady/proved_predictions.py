@@ -77,8 +77,7 @@ def proved_predictions(
     left = [
         candidate
         for index, point in enumerate(points)
-        if "initial_velocity" not in point
-        and (candidate := _candidate(instance, quantity, index, point, starts, max_denominator))
+        if (candidate := _candidate(instance, quantity, index, point, starts, max_denominator))
     ]
     before: Array | None = None
     for _ in range(1 + RESTARTS):
@@ -121,7 +120,7 @@ def _candidate(
     device = {**starts, **values}
     count = common_period(device["frequency_ratio"], max_denominator)
     is_full = device["fidelity"] == 2 and device["averaging_order"] == 2
-    if not is_full or device["friction_law"] != 0 or count is None:
+    if not is_full or device["friction_law"] or "initial_velocity" in values or count is None:
         return None
     try:
         instance.start(values)

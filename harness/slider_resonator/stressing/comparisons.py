@@ -41,9 +41,6 @@ MAX_RELAXATIONS = 5000.0
 """Longest averaged run with LuGre friction, in times that friction takes to stop the fast velocity:
 beyond, the quadratures of the reference take longer than all other cases together."""
 
-CENTRE_VELOCITY, CENTRE = "centre velocity", "centre"
-"""Signals of slider and resonator as one mass, by which leaps are compared."""
-
 Signals = Mapping[str, Array]
 GAVE_UP = (RuntimeError, ValueError, ArithmeticError)
 """What a reference raises where it cannot follow a motion."""
@@ -154,8 +151,8 @@ def _compared(case: Case, outputs: Signals) -> Signals:
     if case.model.leaps:
         share = case.device.mass_ratio
         return {
-            CENTRE_VELOCITY: outputs["velocity"] + share * outputs["resonator_velocity"],
-            CENTRE: outputs["position"] + share * outputs["resonator_displacement"],
+            "centre velocity": outputs["velocity"] + share * outputs["resonator_velocity"],
+            "centre": outputs["position"] + share * outputs["resonator_displacement"],
         }
     if case.model.averages:
         # Before the first step there is no mean over a period.
@@ -185,7 +182,7 @@ def _allowed_of_reference(case: Case, expected: Signals) -> dict[str, float]:
     if case.model.leaps:
         own = EXACT + device.tolerance * device.friction_law
         velocity = MARGIN * device.tolerance * largest_fast_velocity(device, case.held)
-        leaps = {CENTRE_VELOCITY: velocity, CENTRE: velocity * case.duration}
+        leaps = {"centre velocity": velocity, "centre": velocity * case.duration}
         return {name: leaps[name] + own * peak for name, peak in peaks.items()}
     if case.model.averages:
         fast = fast_velocity(device)
