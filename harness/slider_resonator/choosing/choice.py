@@ -73,13 +73,12 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """A candidate with its errors, its cost (s), and what the errors are against."""
+    """A candidate with its errors, the allowed ones, and its cost (s)."""
 
     candidate: Candidate
     estimates: Mapping[str, ErrorEstimate]
     allowed: Mapping[str, float]
     cost: float
-    probe: str
 
     @property
     def excess(self) -> float:

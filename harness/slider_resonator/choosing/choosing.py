@@ -205,8 +205,7 @@ class Choosing:
                 estimates[name] = steady_error(found, self._find(name, self.probe.finest), self.law)
                 cost += found.seconds
             allowed = {name: self.needs[name].at(e.magnitude) for name, e in estimates.items()}
-            covers = self.probe.covers if self.probe.run_needs else "steady motion"
-            self._evaluations[candidate] = Evaluation(candidate, estimates, allowed, cost, covers)
+            self._evaluations[candidate] = Evaluation(candidate, estimates, allowed, cost)
         return self._evaluations[candidate]
 
     def _find(self, name: str, candidate: Candidate) -> SteadyAnswer:
@@ -254,7 +253,7 @@ class Choosing:
                 if best is None or other != model
             ),
             reason=reason if best else none + evaluation.why,
-            probe=evaluation.probe,
+            probe=self.probe.covers if self.probe.run_needs else "steady motion",
             probe_drive_periods=self.probe.drive_periods,
             drive_period=self.scene.drive_period,
             inputs=self.probe.inputs,

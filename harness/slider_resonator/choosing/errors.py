@@ -13,6 +13,7 @@ from slider_resonator.fmu.run import Record
 from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.needs import AllowedTable
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.steady.periodic import SLOW
 
 ROUNDING = {0: 1e-12, 1: 1e-10}
 """Error of the resolved run itself, by friction law, as a share of the magnitude."""
@@ -95,8 +96,6 @@ def _at(points: Array, record: Record, name: str) -> Array:
     return record[name][nearest(record.times, points)]
 
 
-NEAR_AN_INTEGER = 0.1
-"""Distance of the frequency ratio from an integer within which the phase turns slowly."""
 MIN_BEATS = 2.0
 """Beats in the later half of a run from which their frequency can be read."""
 SHOWN = 0.2
@@ -107,7 +106,7 @@ def beat_frequency(scene: Scene) -> float:
     """Return the difference frequency (Hz) at the starting ratio, 0 unless near an integer."""
     ratio = scene.signals["frequency_ratio"].at(0.0)
     detuning = abs(ratio - round(ratio))
-    return detuning / scene.drive_period if detuning < NEAR_AN_INTEGER else 0.0
+    return detuning / scene.drive_period if detuning < SLOW else 0.0
 
 
 def lacking_beat(scene: Scene) -> str:
@@ -119,7 +118,7 @@ def lacking_beat(scene: Scene) -> str:
     if beat == 0.0:
         return (
             f"no beat at frequency_ratio = {ratio.values[0]:.9g}: must be within "
-            f"{NEAR_AN_INTEGER:g} of an integer, but not at one"
+            f"{SLOW:g} of an integer, but not at one"
         )
     beats = 0.5 * (scene.stop_time or 0.0) * beat
     if beats < MIN_BEATS:

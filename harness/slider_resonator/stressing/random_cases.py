@@ -30,8 +30,6 @@ SECOND_ORDER_STEPS = 4
 """Most steps of half of these runs: long ones, of which periods are leapt over."""
 FRICTION_SHARES = (1e-4, 0.03)
 """Friction over the drive force with averages of second order: slow motion."""
-MIN_DAMPING = 0.005
-"""Smallest damping ratio with them: transients must decay."""
 MAX_LUGRE_RELAXATIONS = 20.0
 """Longest averaged run with LuGre friction, in times in which friction stops the fast velocity."""
 TUNABLES = (
@@ -100,7 +98,8 @@ def random_device(random: Random) -> dict[str, float]:
 
 def _light_friction(random: Random, values: Mapping[str, float]) -> dict[str, float]:
     """Return damping, friction and tolerance under which periods are leapt over."""
-    parameters = {**values, "damping_ratio": decades(random, log10(MIN_DAMPING), 0.0)}
+    damping = decades(random, log10(0.005), 0.0)  # transients must decay
+    parameters = {**values, "damping_ratio": damping}
     device = Device.from_mapping(parameters)
     share = decades(random, *map(log10, FRICTION_SHARES))
     friction = abs(equivalent_force(device).amplitude) * share

@@ -80,7 +80,7 @@ def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance) -> None:
 
 def test_of_equal_costs_the_model_that_leaves_out_least_is_taken() -> None:
     def evaluation(model: Model, tolerance: float, cost: float) -> Evaluation:
-        return Evaluation(Candidate(model, tolerance, 1.0), {}, {}, cost, "whole")
+        return Evaluation(Candidate(model, tolerance, 1.0), {}, {}, cost)
 
     averages, expensive = evaluation(Model(0, 0, 1), 1e-8, 1.0), evaluation(Model(2, 0), 1e-8, 1.06)
     fine, rough = (evaluation(Model(0, 0, 2), tolerance, 1.02) for tolerance in (1e-6, 1e-4))
