@@ -21,20 +21,20 @@ from slider_resonator.output.html_page import escaped, folded, rendered, write_p
 from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.steady.searches import SEARCHES
 from slider_resonator.trading.result import (
     QUANTITIES,
     Row,
     Trade,
     comparisons,
-    cost_label,
-    drawn_error,
     duration,
-    families,
     front,
     title,
 )
 
 FRONT = "Pareto front of all"
+FLOOR = 1e-16
+"""Errors below this, the resolution of double precision, are drawn at it."""
 
 
 def work_precision_plot(rows: Sequence[Row], quantity: str) -> HoverPlot:
@@ -42,13 +42,14 @@ def work_precision_plot(rows: Sequence[Row], quantity: str) -> HoverPlot:
     drawn = [row for row in rows if isfinite(row.errors.get(quantity, inf))]
 
     def series(label: str, rows: list[Row], **looks: Any) -> Series:
-        costs, errors = [row.cost for row in rows], [drawn_error(row, quantity) for row in rows]
+        costs = [row.cost for row in rows]
+        errors = [max(row.errors[quantity], FLOOR) for row in rows]
         return Series(label, costs, errors, notes=[_note(row) for row in rows], **looks)
 
     all_series = []
     if drawn:
         all_series.append(series(FRONT, front(drawn, quantity), colour="#cfd8dc", width=6.0))
-    for index, family in enumerate(families(rows)):
+    for index, family in enumerate(dict.fromkeys(row.family for row in rows)):
         own = [row for row in drawn if row.family == family]
         if own:
             colour, marker, dash = look(index)
@@ -56,9 +57,10 @@ def work_precision_plot(rows: Sequence[Row], quantity: str) -> HoverPlot:
             all_series.append(point(family, joined, width=1.3, dash=dash))
             if others := [row for row in own if row not in joined]:
                 all_series.append(point(f"{family}: not on its front", others))
+    per = "answer" if quantity in SEARCHES else "simulated second"
     return HoverPlot(
         f"{quantity.replace('_', ' ')}: error over cost",
-        Axis(cost_label(drawn), log=True),
+        Axis(f"CPU time per {per} [s]", log=True),
         Axis(f"error: {QUANTITIES[quantity]}", log=True),
         all_series,
         height=460,
@@ -156,11 +158,12 @@ def draw_picture(trade: Trade, path: Path) -> None:
             draw_plot(axes, plot)
             lines = {one.label: line for one, line in zip(plot.series, axes.lines, strict=True)}
             lines[FRONT].set(drawstyle="steps-post", zorder=1)
-            entries |= {name: lines[name] for name in (FRONT, *families(rows)) if name in lines}
+            names = (FRONT, *(row.family for row in rows))
+            entries |= {name: lines[name] for name in names if name in lines}
             for row in trade.candidates(quantity):  # the spread of the repeats
                 if line := lines.get(row.family):
-                    spread = drawn_error(row, quantity), min(row.cpu), max(row.cpu)
-                    axes.hlines(*spread, line.get_color(), linewidth=0.8)
+                    error, colour = max(row.errors[quantity], FLOOR), line.get_color()
+                    axes.hlines(error, min(row.cpu), max(row.cpu), colour, linewidth=0.8)
             axes.margins(y=0.14)
             axes.set_ylabel("")
         figure.axes[0].set_ylabel("share of the peak")

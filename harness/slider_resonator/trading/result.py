@@ -116,8 +116,6 @@ class Trade(Shown, Tabular):
         return [row for row in self.having(quantity) if row.friction_law == self.friction_law]
 
 
-FLOOR = 1e-16
-"""Errors below this, the resolution of double precision, are drawn at it."""
 ROUNDING = 1e-12
 """Errors below this are rounding over a thousand drive periods and compare as equal."""
 
@@ -138,26 +136,10 @@ def front(rows: Iterable[Row], quantity: str) -> list[Row]:
     return best
 
 
-def drawn_error(row: Row, quantity: str) -> float:
-    """Return the error of a quantity as it is drawn: not below FLOOR."""
-    return max(row.errors[quantity], FLOOR)
-
-
-def cost_label(rows: Sequence[Row]) -> str:
-    """Return the label of the axis of costs: of answers, or of simulated seconds."""
-    answers = bool(rows) and all(row.answer != "run" for row in rows)
-    return f"CPU time per {'answer' if answers else 'simulated second'} [s]"
-
-
 def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:
     """Return the cheapest row with an error of a quantity of at most `error`, None without any."""
     good = [row for row in rows if row.errors.get(quantity, float("inf")) <= error]
     return min(good, key=lambda row: row.cost, default=None)
-
-
-def families(rows: Sequence[Row]) -> list[str]:
-    """Return the families in the order in which they appear."""
-    return list(dict.fromkeys(row.family for row in rows))
 
 
 COLUMNS = (
@@ -190,8 +172,6 @@ def _cells(row: Row) -> list[Any]:
 
 TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
 """Quantity, and the error at which costs are compared."""
-ROUNDS_UP = 0.9995
-"""Share of a unit that three digits round to the whole unit."""
 CLASSES = {AVERAGED: "averages and leaps", RESOLVED: "resolved", PEER: "peers"}
 
 
@@ -254,8 +234,9 @@ def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:
 
 def duration(seconds: float) -> str:
     """Return a CPU time in three digits, with a unit."""
+    rounded = float(f"{seconds:.3g}")
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
-        if seconds >= ROUNDS_UP * size:
+        if rounded >= size:
             return f"{seconds / size:.3g} {unit}"
     return f"{seconds / 1e-9:.3g} ns"
 
