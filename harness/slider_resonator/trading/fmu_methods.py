@@ -17,7 +17,7 @@ from slider_resonator.fmu.run import Record, run
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import AVERAGED, RESOLVED, Row
-from slider_resonator.trading.solution import STEADY, Method, Solution, SteadyMethod
+from slider_resonator.trading.solution import Method, Solution, SteadyMethod
 
 STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 """Communication steps in drive periods."""
@@ -79,7 +79,7 @@ class FmuMethods:
     @property
     def answers(self) -> Iterator[SteadyMethod]:
         """The searches for steady motion and blocking force, and the outputs of theory."""
-        for quantity in STEADY:
+        for quantity in SEARCHES:
             for model in self._models():
                 yield self._search(quantity, model)
             for order in self.orders:

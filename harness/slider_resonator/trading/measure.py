@@ -21,12 +21,12 @@ from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.steady.searches import SEARCHES
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods, shoot
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
 from slider_resonator.trading.solution import (
-    STEADY,
     Method,
     Readings,
     SteadyMethod,
@@ -68,7 +68,7 @@ def find_reference(problem: Problem) -> Reference:
         held, periods = problem.lines(problem.periods), problem.periods
         run = simulate(problem.device, held, problem.readings(periods))
         found = windows(problem, solution_of(run, located=True), periods)
-        sought = STEADY if problem.steady else ()
+        sought = SEARCHES if problem.steady else ()
         answers = {n: shoot(problem, n, simulate, SHOOTING, inf).value for n in sought}
     except (ValueError, RuntimeError) as error:
         raise HarnessError(
@@ -79,17 +79,9 @@ def find_reference(problem: Problem) -> Reference:
     return Reference(found, bool(np.any(later & (run.modes == STICK))), answers)
 
 
-@dataclass(frozen=True)
-class _Candidate:
-    """A row without its times: `seconds` measures one, to be divided by `per`.
-
-    `estimate` (s) is the time of the first run, used where the budget allows no other.
-    """
-
-    row: Row
-    seconds: Callable[[], float]
-    per: float
-    estimate: float
+_Candidate = tuple[Row, Callable[[], float], float]
+"""A row with the cost of its first run, what measures the cost once more, and the CPU time (s) of
+that run."""
 
 
 @contextmanager
@@ -148,28 +140,25 @@ def measure_trade(
             except _FAILURES as error:
                 notes.setdefault((row.method, quantity), str(error))
         for method in methods:
-            for quantity in STEADY:
+            for quantity in SEARCHES:
                 if quantity in method.missing:
                     notes.setdefault((method.row.method, quantity), method.missing[quantity])
         # In rounds: in each of them every candidate with repeats left.
-        counts = [min(repeats, int(budget / max(one.estimate, 1e-9))) for one in candidates]
+        counts = [min(repeats, int(budget / max(first, 1e-9))) for _, _, first in candidates]
         turns = sorted((turn, index) for index, n in enumerate(counts) for turn in range(n))
-        taken: list[list[float]] = [[] for _ in candidates]
+        costs: list[list[float]] = [[] for _ in candidates]
         for done, (_, index) in enumerate(turns):
-            candidate = candidates[index]
-            report(candidate.row, done, len(turns), 0.6, 0.4)
-            taken[index].append(candidate.seconds() / candidate.per)
-    rows = (
-        replace(one.row, cpu=tuple(cpu or [one.estimate / one.per]))
-        for one, cpu in zip(candidates, taken, strict=True)
-    )
+            row, cost, _ = candidates[index]
+            report(row, done, len(turns), 0.6, 0.4)
+            costs[index].append(cost())
+    pairs = zip(candidates, costs, strict=True)
     return Trade(
         scene=problem.name,
         title=problem.title,
         friction_law=problem.device.friction_law,
         periods=problem.periods,
         simulated=problem.duration(problem.periods),
-        rows=tuple(rows),
+        rows=tuple(replace(row, cpu=tuple(again or row.cpu)) for (row, *_), again in pairs),
         omissions=tuple(Omission(problem.name, *key, reason) for key, reason in notes.items()),
     )
 
@@ -207,20 +196,22 @@ def _follow(
         )
     optional = {"beat_frequency": problem.beat, "event_times": reference.windows.get("last_event")}
     for quantity in QUANTITIES:
-        if quantity not in (*STEADY, *found) and optional.get(quantity, ()) is not None:
+        if quantity not in (*SEARCHES, *found) and optional.get(quantity, ()) is not None:
             reason = "its own steps are too long or its run too short"
             notes[method.row.method, quantity] = method.missing.get(quantity, reason)
+    simulated = problem.duration(periods)
     row = replace(
         method.row,
         scene=problem.name,
         periods=periods,
+        cpu=(taken / simulated,),
         errors=found,
         start_cpu=solution.start_cpu,
         steps=solution.steps,
         evaluations=solution.evaluations,
         events=solution.events,
     )
-    return _Candidate(row, lambda: method.seconds(periods), problem.duration(periods), taken)
+    return row, lambda: method.seconds(periods) / simulated, taken
 
 
 def _answer(
@@ -234,6 +225,11 @@ def _answer(
     found = answer.find(budget)
     if found.value is None:
         raise ValueError(found.reason)
-    off = {quantity: abs(found.value - expected) / abs(expected)}
-    row = replace(answer.row, scene=problem.name, periods=found.periods, errors=off)
-    return _Candidate(row, lambda: answer.find(inf).seconds, 1.0, found.seconds)
+    row = replace(
+        answer.row,
+        scene=problem.name,
+        periods=found.periods,
+        cpu=(found.seconds,),
+        errors={quantity: abs(found.value - expected) / abs(expected)},
+    )
+    return row, lambda: answer.find(inf).seconds, found.seconds

@@ -20,19 +20,19 @@ from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate as simulate_series
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import ReferenceMotion, Simulate
-from slider_resonator.steady.searches import SteadyAnswer
+from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import PEER, Row
-from slider_resonator.trading.solution import STEADY, Method, Solution, SteadyMethod, solution_of
+from slider_resonator.trading.solution import Method, Solution, SteadyMethod, solution_of
 
 MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""
 SHOOTING = 1e-6
 """Accuracy of shooting, in units of the state, with methods that lose their order at reversals."""
 NO_EVENTS = {"event_times": "no event is located"}
-NOT_SHOT = dict.fromkeys(STEADY, "shooting needs a start in any state of the full device")
+NOT_SHOT = dict.fromkeys(SEARCHES, "shooting needs a start in any state of the full device")
 NO_REVERSALS = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
 NO_MODES = {"event_times": "averaged motion has no events", **NOT_SHOT}
 
@@ -110,7 +110,7 @@ def _peer(
 
     answers = []
     if shooting is not None:
-        for quantity in STEADY:
+        for quantity in SEARCHES:
             find = partial(shoot, problem, quantity, simulate, shooting)
             answers.append(SteadyMethod(replace(row, answer=quantity), find))
     return Method(row, run, seconds, 1, cannot_stick, missing, answers)

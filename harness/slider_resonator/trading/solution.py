@@ -15,12 +15,9 @@ from slider_resonator.checks.measures import (
 )
 from slider_resonator.device.schedule import nearest
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
+from slider_resonator.steady.searches import SteadyAnswer
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import Row
-
-STEADY = tuple(SEARCHES)
-"""What is found without following a motion."""
 
 
 @dataclass(frozen=True)
