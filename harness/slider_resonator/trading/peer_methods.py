@@ -21,7 +21,7 @@ from slider_resonator.references.resolved.simulate import simulate as simulate_s
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import ReferenceMotion, Simulate
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
-from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
+from slider_resonator.trading.peers import event_free, located_scipy
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import PEER, Row
@@ -65,7 +65,7 @@ def peer_methods(problem: Problem) -> Iterator[Method]:
             sgn = partial(on_sgn, rtol=1e-6, atol=atol)
             yield peer("DOP853 on sgn (the paper)", f"rtol 1e-06, atol {atol:.0e}", atol, sgn)
         for count in (16, 64, 256, 1024):
-            stepping = partial(moreau_jean.simulate, steps_per_period=count)
+            stepping = partial(event_free.moreau_jean, steps_per_period=count)
             yield peer("Moreau-Jean", f"{count} steps a period", None, stepping)
         for share in (1e-1, 1e-2, 1e-3, 1e-4):
             setting = f"width {share:g} of the fast velocity"
