@@ -15,9 +15,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
-from slider_resonator.trading.problem import Problem
+from slider_resonator.trading.problem import Method, Problem, Solution, SteadyMethod
 from slider_resonator.trading.result import AVERAGED, RESOLVED, Row
-from slider_resonator.trading.solution import Method, Solution, SteadyMethod
 
 STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 """Communication steps in drive periods."""

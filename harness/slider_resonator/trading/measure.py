@@ -24,16 +24,16 @@ from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.searches import SEARCHES
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods, shoot
-from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
-from slider_resonator.trading.solution import (
+from slider_resonator.trading.problem import (
     Method,
+    Problem,
     Readings,
     SteadyMethod,
     errors,
     solution_of,
     windows,
 )
+from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""

@@ -23,9 +23,8 @@ from slider_resonator.steady.reference_steady import ReferenceMotion, Simulate
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 from slider_resonator.trading.peers import event_free, located_scipy
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
-from slider_resonator.trading.problem import Problem
+from slider_resonator.trading.problem import Method, Problem, Solution, SteadyMethod, solution_of
 from slider_resonator.trading.result import PEER, Row
-from slider_resonator.trading.solution import Method, Solution, SteadyMethod, solution_of
 
 MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""

@@ -1,8 +1,7 @@
 """Short problems that the tests of the trade share."""
 
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trading.problem import Problem, problem_of
-from slider_resonator.trading.solution import Readings, solution_of, windows
+from slider_resonator.trading.problem import Problem, Readings, problem_of, solution_of, windows
 from tests.harness.scene_text import scene_of
 
 

@@ -14,9 +14,8 @@ from slider_resonator.trading import measure
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.measure import find_reference, measure_trade
 from slider_resonator.trading.peer_methods import shoot
-from slider_resonator.trading.problem import MIN_PERIODS, Problem
+from slider_resonator.trading.problem import MIN_PERIODS, Method, Problem, Solution, errors, windows
 from slider_resonator.trading.result import PEER, Row
-from slider_resonator.trading.solution import Method, Solution, errors, windows
 from tests.harness.in_process import InProcess
 from tests.harness.trading.problems import (
     BEAT,

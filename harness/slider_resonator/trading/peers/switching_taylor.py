@@ -19,7 +19,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trading.solution import Solution
+from slider_resonator.trading.problem import Solution
 
 DIRECTION, REVERSED_AT, STRETCH = range(3)
 """Parameters that change in a run; only the first with Coulomb friction."""

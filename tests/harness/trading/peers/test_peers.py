@@ -12,7 +12,7 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import simulate as resolved
 from slider_resonator.trading.peer_methods import peer_methods
 from slider_resonator.trading.peers.event_free import simulate
-from slider_resonator.trading.solution import Method, errors
+from slider_resonator.trading.problem import Method, errors
 from tests.harness.references.comparing import deviation, until
 from tests.harness.trading.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
 from tests.problems import SIGNALS
