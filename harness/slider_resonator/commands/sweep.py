@@ -17,8 +17,7 @@ from slider_resonator.output.files import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.sweeping.grid import grid_from, read_grid
-from slider_resonator.sweeping.sweeping import run_sweep
-from slider_resonator.sweeping.table import SUFFIXES
+from slider_resonator.sweeping.sweeping import SUFFIXES, run_sweep
 
 
 def _axis(text: str) -> tuple[str, dict[str, float]]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -132,6 +132,8 @@ Row = tuple[int, list[Cell], str | None]
 """Number of a point, the cells of its measures, and its error if it failed."""
 Proved = Mapping[str, float]
 """Measure to its value, of those that need no search."""
+Columns = Mapping[str, list[Any]]
+"""Column of the table to its entries, one a point; None where there is none."""
 
 
 def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> list[Row | Proved]:

@@ -30,8 +30,7 @@ from slider_resonator.output.plot_style import Drawn, Picture, drawn, style
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Table, numbers, texts
 from slider_resonator.sweeping.grid import Sweep
-from slider_resonator.sweeping.measures import unit
-from slider_resonator.sweeping.table import Columns
+from slider_resonator.sweeping.measures import Columns, unit
 
 NO_ANSWER = "no answer"
 GREY = "#78909c"

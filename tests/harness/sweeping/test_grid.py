@@ -13,11 +13,11 @@ from matplotlib.lines import Line2D
 from pyarrow import parquet
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.sweeping import table
+from slider_resonator.sweeping import sweeping
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
-from slider_resonator.sweeping.measures import Row, Run, Task
+from slider_resonator.sweeping.measures import Columns, Row, Run, Task
 from slider_resonator.sweeping.picture import MAX_POINTS, check_page, sweep_figure, write_sweep_page
-from slider_resonator.sweeping.table import Columns, check_writer, table_columns, write_table
+from slider_resonator.sweeping.sweeping import check_writer, table_columns, write_table
 from tests.harness.golden import assert_as_before, assert_mistakes_as_before
 from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page
@@ -100,7 +100,7 @@ def test_tables_give_back_the_same_numbers(tmp_path: Path) -> None:
 
 
 def test_without_pyarrow_only_csv_is_possible(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(table, "find_spec", lambda name: None)
+    monkeypatch.setattr(sweeping, "find_spec", lambda name: None)
     check_writer(Path("a.csv"))
     with pytest.raises(HarnessError, match=r"pip install 'slider-resonator\[parquet\]'"):
         check_writer(Path("a.parquet"))

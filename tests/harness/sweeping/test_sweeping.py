@@ -23,7 +23,6 @@ from slider_resonator.output.journal import Journal
 from slider_resonator.sweeping import cluster, sweeping
 from slider_resonator.sweeping.grid import grid_from
 from slider_resonator.sweeping.sweeping import run_sweep
-from slider_resonator.sweeping.table import journal_path
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""
@@ -53,6 +52,10 @@ WIDE = grid_from({"grid": {"frequency_ratio": RATIOS, "phase": PHASES}}, "a wide
 """Enough points to be killed in between."""
 LONG = "[grid]\nfrequency_ratio = [1.0, 3.0]\nphase = { from = 0.0, to = 3.1, count = 2000 }\n"
 """Enough cheap points to be killed a dozen times in between."""
+
+
+def journal_path(table: Path) -> Path:
+    return table.with_name(f"{table.name}.journal")
 
 
 def kept_points(out: Path) -> int:
