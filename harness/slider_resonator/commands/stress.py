@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Sequence
-from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
@@ -10,7 +9,7 @@ import click
 from click.core import ParameterSource
 
 from slider_resonator.commands import options
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.files import make_folder
@@ -147,11 +146,7 @@ def case_named(name: str) -> Case:
     )
     cases = {case.name: case for case in found}
     if name not in cases:
-        near = get_close_matches(name, cases, n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise HarnessError(
-            f"--case {name!r} refused: must be AXIS: VALUE: MODEL of a case, as in the result{hint}"
-        )
+        raise HarnessError(f"--case: {unknown_name('case', name, cases)}")
     return cases[name]
 
 

@@ -1,7 +1,6 @@
 """`trade`: measure error over cost of the FMUs' models and of other methods."""
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 import click
@@ -12,18 +11,10 @@ from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folder
 from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.readable import number_of, one_line
+from slider_resonator.trading import result
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trade, opened
 from slider_resonator.trading.page import draw_picture, write_trades
-from slider_resonator.trading.problem import Problem, problem_of
-from slider_resonator.trading.result import (
-    SUFFIXES,
-    Trade,
-    comparisons,
-    standings,
-    title,
-    write_choices,
-    write_tables,
-)
+from slider_resonator.trading.problem import problem_of
 
 TABLES = ("index.html", "trade.csv", "omissions.csv")
 
@@ -64,7 +55,7 @@ TABLES = ("index.html", "trade.csv", "omissions.csv")
 @click.option(
     "--page",
     "pages",
-    type=options.target(SUFFIXES),
+    type=options.target(result.SUFFIXES),
     multiple=True,
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
@@ -113,10 +104,10 @@ def trade_command(
     problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or options.default_fmus()
     provenance = provenance_of(*paths)
-    trades: list[Trade] = []
+    trades: list[result.Trade] = []
     with (
         opened(paths, time_limit) as instances,
-        noting_on_interrupt(partial(_kept, trades, problems, out)),
+        noting_on_interrupt(lambda: f"{len(trades)} of {len(problems)} scenes are kept in {out}"),
         progress_bar() as progress,
     ):
         make_folder(out, keep=False)
@@ -126,27 +117,20 @@ def trade_command(
             make_folder(out)
             # After each scene, so that a later failure does not lose minutes of measurement.
             page, rows, omissions = tables.values()
-            write_tables(rows, omissions, trades)
+            result.write_tables(rows, omissions, trades)
             write_trades(page, trades, provenance)
     if picture is not None:
         draw_picture(trades[0], picture)
     for page in pages:
-        write_choices(page, trades)
+        result.write_choices(page, trades)
     lines = []
     for trade in trades:
-        lines.append(one_line(title(trade)))
-        for heading, sentences in comparisons(trade):
+        lines.append(one_line(result.title(trade)))
+        for heading, sentences in result.comparisons(trade):
             lines += [f"  {one_line(heading)}", *(f"    {one_line(one)}" for one in sentences)]
         omitted = number_of(len(trade.omissions), "omission")
         lines.append(f"  {number_of(len(trade.rows), 'row')}, {omitted}")
     written = [*tables.values(), *([] if picture is None else [picture]), *pages]
     lines.append(f"written {one_line(', '.join(map(str, written)))}")
-    entries = [{"trade": trade, "standings": standings(trade)} for trade in trades]
+    entries = [{"trade": trade, "standings": result.standings(trade)} for trade in trades]
     print_result(entries, lines, as_json=as_json, provenance=provenance)
-
-
-def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> str:
-    if not trades:
-        return "no scene is finished; nothing is kept"
-    rest = ", ".join(dict.fromkeys(problem.name for problem in problems[len(trades) :]))
-    return f"{len(trades)} of {len(problems)} scenes are kept in {out}; not measured: {rest}"
