@@ -75,15 +75,9 @@ def simulate(
             reached = time if solver.status == "running" else inputs.stop
             local = recorder.pending(reached) - inputs.start
             if local.size:
-                states, angles = solver.dense_output()(local).T, run.angles(inputs, local)
-                if equations.path_rate:
-                    at = (SLIP_FORWARD, 0.0, angles, angles, states)
-                    _, friction = equations.contact_forces(*at)
-                else:
-                    velocity = states[:, 1]
-                    share = np.tanh(velocity / width) if width else np.sign(velocity)
-                    friction = share * np.maximum(0.0, equations.friction_limit(angles))
-                run.keep(inputs, local, states, friction)
+                states = solver.dense_output()(local).T
+                share = np.tanh(states[:, 1] / width) if width else np.sign(states[:, 1])
+                run.keep(inputs, local, states, 1.0 if equations.path_rate else share)
         recorder.evaluations += solver.nfev
         run.state = solver.y
 
@@ -94,7 +88,7 @@ class RunWithoutEvents:
     """A device followed through held inputs; ``theta`` and ``psi`` (rad) are those at their start.
 
     ``state`` holds position, velocity, resonator displacement and velocity, and with LuGre friction
-    the deflection of the bristle, shape (4,) or (5,); ``friction`` (N) is for time stepping.
+    the deflection of the bristle, shape (4,) or (5,).
     """
 
     def __init__(self, device: Device, times: Array) -> None:
@@ -104,7 +98,6 @@ class RunWithoutEvents:
         self.state: Array = np.array(initial_state(device))
         self.theta = 0.0
         self.psi = 0.0
-        self.friction = 0.0
 
     def run(
         self, held: Sequence[HeldInputs], follow: Callable[["RunWithoutEvents", HeldInputs], None]
@@ -125,16 +118,19 @@ class RunWithoutEvents:
         """Return psi + phase in rad at times in s since the start of the inputs."""
         return self.psi + inputs.phase + inputs.turned(local, self.equations.drive_frequency)
 
-    def keep(self, inputs: HeldInputs, local: Array, states: Array, friction: Array) -> None:
-        """Keep states (k, 4 or 5) and friction (k,) in N at times in s since the inputs' start."""
+    def keep(self, inputs: HeldInputs, local: Array, states: Array, share: float | Array) -> None:
+        """Keep states (k, 4 or 5) at times (k,) in s since the inputs' start.
+
+        ``share`` is that of the friction force in that of forward sliding, NaN where it is unknown.
+        """
         equations = self.equations
-        angles = self.angles(inputs, local)
-        load = equations.normal_preload + equations.normal_amplitude * np.sin(angles)
+        theta, angles = self.theta + equations.drive_frequency * local, self.angles(inputs, local)
+        normal, friction = equations.contact_forces(SLIP_FORWARD, 0.0, theta, angles, states)
         self.recorder.keep(
             states,
-            equations.resonator_motion(self.theta + equations.drive_frequency * local, states),
-            (np.maximum(0.0, load), friction),
-            np.where(load > 0.0, np.sign(states[:, 1]), float(LIFTED)),
+            equations.resonator_motion(theta, states),
+            (normal, share * friction),
+            np.where(normal > 0.0, np.sign(states[:, 1]), float(LIFTED)),
         )
 
 
@@ -168,15 +164,15 @@ def moreau_jean(
     Takes the inputs that ``resolved.simulate`` takes. A step is at most a
     ``steps_per_period``-th of a drive period; those of held inputs are equal, and samples between
     their ends are interpolated linearly. ``contact_mode`` is the sign of the velocity (0 in a
-    stick, 2 where the contact is open), ``reversals`` counts its changes between steps, and
-    ``event_times`` is empty. Raises ValueError as the other does.
+    stick, 2 where the contact is open), ``reversals`` counts its changes between steps,
+    ``friction_force`` is NaN and ``event_times`` empty. Raises ValueError as the other does.
     """
     follow = partial(_step_through, steps_per_period=steps_per_period)
     return RunWithoutEvents(device, times).run(held, follow)
 
 
 def _step_through(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period: int) -> None:
-    """Step through held inputs; the friction of the last step goes on to the next."""
+    """Step through held inputs, and keep what is sampled in them."""
     e, recorder = run.equations, run.recorder
     rate, span = e.drive_frequency, inputs.stop - inputs.start
     count = ceil(span * rate / (2.0 * pi) * steps_per_period * (1.0 - _SAME_INSTANT))
@@ -189,7 +185,7 @@ def _step_through(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period
     resonator_mobility = -inverse / e.inertia
     angle = run.psi + inputs.phase
     x, v, y, u = run.state.tolist()
-    path = array("d", (x, v, y, u, run.friction))
+    path = array("d", run.state)
     for index in range(count):
         middle = (index + 0.5) * h
         theta = run.theta + rate * middle
@@ -212,13 +208,13 @@ def _step_through(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period
         x += 0.5 * h * (v + next_v)
         y += 0.5 * h * (u + next_u)
         v, u = next_v, next_u
-        path.extend((x, v, y, u, impulse / h))
+        path.extend((x, v, y, u))
         recorder.slide((v > 0.0) - (v < 0.0))
     recorder.steps += count
     recorder.evaluations += count
-    rows = np.array(path).reshape(-1, 5)
-    run.state, run.friction = rows[-1, :4], float(rows[-1, 4])
+    rows = np.array(path).reshape(-1, 4)
+    run.state = rows[-1]
     local = recorder.pending(inputs.stop) - inputs.start
     ends = h * np.arange(count + 1)
     samples = np.column_stack([np.interp(local, ends, column) for column in rows.T])
-    run.keep(inputs, local, samples[:, :4], samples[:, 4])
+    run.keep(inputs, local, samples, np.nan)
