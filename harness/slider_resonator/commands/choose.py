@@ -14,20 +14,17 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.needs import AllowedTable, allowed_error
 
 
-def _need(text: str) -> tuple[str, AllowedTable]:
-    """Return name and allowed error of NAME=ERROR; ValueError for another text."""
-    name, separator, error = text.partition("=")
-    if not separator:
-        raise ValueError(f"{text!r} is not NAME=ERROR, such as mean_velocity='1 %'")
-    return name, allowed_error(name, error)
-
-
 @click.command("choose", cls=options.SettingsCommand)
 @click.argument("scene", default="table_1")
 @click.option(
     "--need",
     "needs",
-    type=options.Parsed("NAME=ERROR", _need),
+    type=options.Parsed(
+        "NAME=ERROR",
+        lambda name, error: (name, allowed_error(name, error)),
+        "(.*?)=(.*)",
+        "mean_velocity='1 %'",
+    ),
     multiple=True,
     callback=options.each_once,
     help="A quantity and its allowed error, as mean_velocity='1 %' or position='2 um', in place of "

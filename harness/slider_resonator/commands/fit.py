@@ -1,8 +1,8 @@
 """`fit`: parameters of a device from measurements."""
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -17,25 +17,20 @@ from slider_resonator.output.files import distinct, make_folder
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
 
-
-def _loaded(text: str) -> tuple[float, float]:
-    """Return load (N) and velocity (m/s) of LOAD=VELOCITY; ValueError for another text."""
-    load, separator, velocity = text.partition("=")
-    if not separator:
-        raise ValueError(f"{text!r} is not LOAD=VELOCITY, such as '50 mN=30 mm/s'")
-    return VARIABLES["load"].read(load), VARIABLES["steady_velocity"].read(velocity)
-
-
-def _bounds(text: str) -> tuple[str, tuple[str, str]]:
-    """Return name and both bounds of NAME=LOW:HIGH; ValueError for another text."""
-    match = re.fullmatch(r"(\w+)=([^:]+):([^:]+)", text.strip())
-    if match is None:
-        raise ValueError(f"{text!r} is not NAME=LOW:HIGH, such as damping_ratio=0.001:0.2")
-    return match[1], (match[2], match[3])
-
-
 _VELOCITY = options.Parsed("m/s", VARIABLES["steady_velocity"].read)
 _FORCE = options.Parsed("N", VARIABLES["blocking_force"].read)
+_LOADED = options.Parsed(
+    "LOAD=VELOCITY",
+    lambda load, velocity: (VARIABLES["load"].read(load), _VELOCITY.read(velocity)),
+    "(.*?)=(.*)",
+    "'50 mN=30 mm/s'",
+)
+_BOUNDS = options.Parsed(
+    "NAME=LOW:HIGH",
+    lambda name, low, high: (name, (low, high)),
+    r"\s*(\w+)=([^:]+):([^:]+)",
+    "damping_ratio=0.001:0.2",
+)
 
 
 @click.command("fit", cls=options.SettingsCommand)
@@ -49,7 +44,7 @@ _FORCE = options.Parsed("N", VARIABLES["blocking_force"].read)
 )
 @click.option(
     "--bounds",
-    type=options.Parsed("NAME=LOW:HIGH", _bounds),
+    type=_BOUNDS,
     multiple=True,
     callback=options.each_once,
     help="Bounds of one. Repeatable.",
@@ -59,7 +54,7 @@ _FORCE = options.Parsed("N", VARIABLES["blocking_force"].read)
 @click.option(
     "--velocity-at",
     "loaded",
-    type=options.Parsed("LOAD=VELOCITY", _loaded),
+    type=_LOADED,
     multiple=True,
     help="Velocity under a load, as '50 mN=30 mm/s'. Repeatable.",
 )
@@ -78,7 +73,7 @@ _FORCE = options.Parsed("N", VARIABLES["blocking_force"].read)
 def fit_command(
     data: tuple[Path, ...],
     free: Sequence[str],
-    bounds: dict[str, tuple[str, str]],
+    bounds: dict[str, Any],
     velocity: float | None,
     blocking: float | None,
     loaded: Sequence[tuple[float, float]],

@@ -35,14 +35,19 @@ _SETTING = re.compile(r"[A-Za-z_]\w*=")
 
 
 class Parsed(click.ParamType[Value]):
-    """What is read from a text by `read`, which raises ValueError or HarnessError.
+    """What `read`, which raises ValueError or HarnessError, makes of the parts of a text.
 
-    The help shows `name`.
+    The parts are the groups of `pattern`, by default the whole text. The help shows `name`, a
+    message an `example` of it, too.
     """
 
-    def __init__(self, name: str, read: Callable[[str], Value]) -> None:
+    def __init__(
+        self, name: str, read: Callable[..., Value], pattern: str = "(.*)", example: str = ""
+    ) -> None:
         self.name = name
         self.read = read
+        self.pattern = re.compile(pattern, re.DOTALL)
+        self.example = example
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
@@ -51,8 +56,11 @@ class Parsed(click.ParamType[Value]):
         if not isinstance(value, str):
             found: Value = value
             return found
+        parts = self.pattern.fullmatch(value)
+        if parts is None:
+            self.fail(f"{value!r} is not {self.name}, such as {self.example}", param, ctx)
         try:
-            return self.read(value)
+            return self.read(*parts.groups())
         except (ValueError, HarnessError) as error:
             self.fail(str(error), param, ctx)
 
@@ -78,12 +86,9 @@ def target(suffixes: Sequence[str]) -> Parsed[Path]:
     return Parsed("FILE", partial(writable, suffixes=suffixes))
 
 
-def setting(text: str) -> tuple[str, float]:
-    """Return name and value of NAME=VALUE, a parameter or input of the FMU; ValueError if wrong."""
-    name, separator, number = text.partition("=")
+def setting(name: str, number: str) -> tuple[str, float]:
+    """Return name and value of a parameter or input of the FMU; ValueError if wrong."""
     name = name.strip()
-    if not separator:
-        raise ValueError(f"{text!r} is not NAME=VALUE, such as phase=0.4")
     value = settable_value(name, number)
     if is_number(number):
         note(possible_slips({name: value}))
@@ -300,7 +305,7 @@ fmu_option = click.option(
 _settings_option = click.option(
     SET,
     "settings",
-    type=Parsed("NAME=VALUE", setting),
+    type=Parsed("NAME=VALUE", setting, "(.*?)=(.*)", "phase=0.4"),
     multiple=True,
     callback=each_once,
     help="Set a parameter or input, in SI units or with a unit, as 'load=50 mN'; more NAME=VALUE "

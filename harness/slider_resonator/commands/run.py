@@ -32,19 +32,16 @@ HOW_INPUTS = {
 """How inputs that are straight lines reach an FMU, in words."""
 
 
-def _window(text: str) -> tuple[float, float]:
-    """Return the two times (s) of FROM:TO; ValueError for another text."""
-    begin, _, end = text.partition(":")
-    try:
-        return si_number("time", begin, "s"), si_number("time", end, "s")
-    except ValueError as error:
-        example = "such as 0.1:0.11 or with a unit: 5 ms:6 ms"
-        raise ValueError(f"{text!r}: must be FROM:TO, two times in s, {example}") from error
+def _window(begin: str, end: str) -> tuple[float, float]:
+    """Return two times in s; ValueError for other texts."""
+    return si_number("time", begin, "s"), si_number("time", end, "s")
 
 
 def _overlay(text: str) -> tuple[str, float] | Path:
     """Return the setting NAME=VALUE, or the path of an FMU; ValueError for a wrong setting."""
-    return options.setting(text) if "=" in text and not Path(text).is_file() else Path(text)
+    if Path(text).is_file() or "=" not in text:
+        return Path(text)
+    return options.setting(*text.split("=", 1))
 
 
 @click.command("run", cls=options.SettingsCommand)
@@ -66,7 +63,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 )
 @click.option(
     "--window",
-    type=options.Parsed("FROM:TO", _window),
+    type=options.Parsed("FROM:TO", _window, "(.+?):(.+)", "0.1:0.11 or 5 ms:6 ms"),
     help="With --plot: the time to draw, in s or with a unit, in steps fine enough to be smooth.",
 )
 @click.option(

@@ -1,6 +1,5 @@
 """`sweep`: collect thousands of runs in one table."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -20,12 +19,8 @@ from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import SUFFIXES, run_sweep
 
 
-def _axis(text: str) -> tuple[str, dict[str, float]]:
-    """Return name and range, in SI units, of NAME=FROM:TO:COUNT; ValueError for another text."""
-    match = re.fullmatch(r"(\w+)=([^:]+):([^:]+):(\d+)", text.strip())
-    if match is None:
-        raise ValueError(f"{text!r} is not NAME=FROM:TO:COUNT, such as 'phase=-180 deg:180 deg:73'")
-    name, first, last, count = match.groups()
+def _axis(name: str, first: str, last: str, count: str) -> tuple[str, dict[str, float]]:
+    """Return a name and a range in SI units; ValueError for other texts."""
     if name not in SETTABLE:
         raise ValueError(unknown_name("parameter or input", name, SETTABLE))
     begin, end = map(VARIABLES[name].in_si, (first, last))
@@ -37,7 +32,12 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
 @click.option(
     "--over",
     "axes",
-    type=options.Parsed("NAME=FROM:TO:COUNT", _axis),
+    type=options.Parsed(
+        "NAME=FROM:TO:COUNT",
+        _axis,
+        r"\s*(\w+)=([^:]+):([^:]+):(\d+)\s*",
+        "'phase=-180 deg:180 deg:73'",
+    ),
     multiple=True,
     callback=options.each_once,
     help="In place of GRID: a range of a parameter or input, in SI units or with units. "
