@@ -62,26 +62,24 @@ def run_task(plugin_name: str, task: Task) -> Outcome:
 class DaskProcesses:
     """The workers of a cluster, which itself runs the tasks of a dead worker again."""
 
-    def __init__(self, client: Client, address: str, plugin_name: str, count: int) -> None:
+    def __init__(self, client: Client, plugin_name: str, count: int) -> None:
         self.count = count
         self._client = client
-        self._address = address
         self._plugin_name = plugin_name
         self._executor: Any = client.get_executor(pure=False)  # type: ignore[no-untyped-call]
 
     def submit(self, task: Task) -> Future[Outcome]:
         """Begin to run a task, or queue it."""
-        with _naming_loss(self._address):
-            future: Future[Outcome] = self._executor.submit(run_task, self._plugin_name, task)
-            return future
+        future: Future[Outcome] = self._executor.submit(run_task, self._plugin_name, task)
+        return future
 
     def outcome(self, future: Future[Outcome]) -> Outcome:
-        """Wait for the outcome of a task; HarnessError where the scheduler is lost."""
+        """Wait for the outcome of a task; ConnectionError where the scheduler is lost."""
         try:
             return future.result()
-        except (KilledWorker, CancelledError, FutureCancelled):
+        except (KilledWorker, CancelledError, FutureCancelled) as error:
             if self._client.status != "running":
-                raise _lost(self._address) from None
+                raise ConnectionError from error
             return Outcome(error=FmuDied("the worker process died at this point"))
 
     def end(self) -> None:
@@ -93,7 +91,10 @@ class DaskProcesses:
 def dask_processes(
     digest: str, fmu: Path, address: str, time_limit: float
 ) -> Iterator[DaskProcesses]:
-    """Yield the workers of the scheduler at `address`; HarnessError where none answers."""
+    """Yield the workers of the scheduler at `address`.
+
+    Raises HarnessError where none answers or it is lost.
+    """
     try:
         client = Client(  # type: ignore[no-untyped-call]
             address, timeout=CONNECT_SECONDS, set_as_default=False
@@ -102,29 +103,18 @@ def dask_processes(
         raise HarnessError(f"--dask {address}: no scheduler answers: {error}") from error
     with client:
         plugin = FmuPlugin(digest, fmu.name, fmu.read_bytes(), time_limit)
-        with _naming_loss(address):
+        try:
             client.register_plugin(plugin)
             threads: dict[str, int] = client.nthreads()  # type: ignore[no-untyped-call]
-        processes = DaskProcesses(client, address, plugin.name, max(1, sum(threads.values())))
-        try:
-            yield processes
-        finally:
-            processes.end()
-            if client.status == "running":
-                with suppress(OSError):
-                    client.unregister_worker_plugin(plugin.name)  # type: ignore[no-untyped-call]
-
-
-@contextmanager
-def _naming_loss(address: str) -> Iterator[None]:
-    """Turn the loss of the scheduler into a HarnessError that names it."""
-    try:
-        yield
-    except OSError as error:  # also that of a closed connection and of a timeout
-        raise _lost(address) from error
-
-
-def _lost(address: str) -> HarnessError:
-    return HarnessError(
-        f"--dask {address}: the scheduler is lost; the same command continues the sweep"
-    )
+            processes = DaskProcesses(client, plugin.name, max(1, sum(threads.values())))
+            try:
+                yield processes
+            finally:
+                processes.end()
+                if client.status == "running":
+                    with suppress(OSError):
+                        client.unregister_worker_plugin(plugin.name)  # type: ignore[no-untyped-call]
+        except OSError as error:  # also that of a closed connection and of a timeout
+            raise HarnessError(
+                f"--dask {address}: the scheduler is lost; the same command continues the sweep"
+            ) from error
