@@ -125,7 +125,7 @@ def trade_command(
         result.write_choices(page, trades)
     lines = []
     for trade in trades:
-        lines.append(one_line(result.title(trade)))
+        lines.append(one_line(trade.heading))
         for heading, sentences in result.comparisons(trade):
             lines += [f"  {one_line(heading)}", *(f"    {one_line(one)}" for one in sentences)]
         omitted = number_of(len(trade.omissions), "omission")

@@ -21,12 +21,7 @@ from slider_resonator import __version__
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, FmuDied
-from slider_resonator.fmu.isolation.tasks import (
-    QUEUED,
-    LocalProcesses,
-    Processes,
-    run_all_tasks,
-)
+from slider_resonator.fmu.isolation.tasks import QUEUED, LocalProcesses, Processes, run_all_tasks
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of
 from slider_resonator.output.console import noting_on_interrupt

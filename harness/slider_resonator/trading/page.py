@@ -22,15 +22,7 @@ from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.steady.searches import SEARCHES
-from slider_resonator.trading.result import (
-    QUANTITIES,
-    Row,
-    Trade,
-    comparisons,
-    duration,
-    front,
-    title,
-)
+from slider_resonator.trading.result import QUANTITIES, Row, Trade, comparisons, duration, front
 
 FRONT = "Pareto front of all"
 FLOOR = 1e-16
@@ -108,13 +100,13 @@ def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) ->
     """Write the page; HarnessError when that is impossible."""
     parts = []
     for trade in trades:
-        parts.append(f"<h2>{escaped(title(trade))}</h2>")
+        parts.append(f"<h2>{escaped(trade.heading)}</h2>")
         for target, sentences in comparisons(trade):
             items = "".join(f"<li>{escaped(words)}</li>" for words in sentences)
             parts.append(f"<p><strong>{escaped(target)}</strong></p><ul>{items}</ul>")
     parts.append(EXPLANATION)
     for trade in trades:
-        parts.append(f"<h2>{escaped(title(trade))}: in full</h2>")
+        parts.append(f"<h2>{escaped(trade.heading)}: in full</h2>")
         run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
         parts.append(f"<p>{escaped(run)}</p>")
         shown = [quantity for quantity in QUANTITIES if trade.having(quantity)]

@@ -92,6 +92,11 @@ class Trade(Shown, Tabular):
     rows: tuple[Row, ...]
     omissions: tuple[Omission, ...]
 
+    @property
+    def heading(self) -> str:
+        """Title, scene and friction law."""
+        return f"{self.title} (scene {self.scene}, {LAWS[self.friction_law]} friction)"
+
     def table(self) -> dict[str, list[Any]]:
         """Return the rows in columns, as in the CSV file."""
         cells = [_cells(row) for row in self.rows]
@@ -305,14 +310,9 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
     for trade in trades:
         table = Table(CHOICE_COLUMNS, choices(trade))
         if path.suffix == ".md":
-            heading = markdown.escaped(title(trade))
+            heading = markdown.escaped(trade.heading)
             parts.append(f"\n**{heading}**\n\n{markdown.rendered(table)}\n")
         else:
-            heading = html_page.escaped(title(trade))
+            heading = html_page.escaped(trade.heading)
             parts.append(f"<h3>{heading}</h3>\n{html_page.rendered(table)}")
     write_marked(path, "\n".join(parts), BEGIN, END)
-
-
-def title(trade: Trade) -> str:
-    """Return the title of a table."""
-    return f"{trade.title} (scene {trade.scene}, {LAWS[trade.friction_law]} friction)"
