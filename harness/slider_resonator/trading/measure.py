@@ -24,15 +24,7 @@ from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.searches import SEARCHES
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods, shoot
-from slider_resonator.trading.problem import (
-    Method,
-    Problem,
-    Readings,
-    SteadyMethod,
-    errors,
-    solution_of,
-    windows,
-)
+from slider_resonator.trading.problem import Method, Problem, Readings, SteadyMethod, solution_of
 from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
 
 BUDGET = 1.0
@@ -67,7 +59,7 @@ def find_reference(problem: Problem) -> Reference:
     try:
         held, periods = problem.lines(problem.periods), problem.periods
         run = simulate(problem.device, held, problem.readings(periods))
-        found = windows(problem, solution_of(run, located=True), periods)
+        found = problem.read(solution_of(run, located=True), periods)
         sought = SEARCHES if problem.steady else ()
         answers = {n: shoot(problem, n, simulate, SHOOTING, inf).value for n in sought}
     except (ValueError, RuntimeError) as error:
@@ -188,7 +180,7 @@ def _follow(
         taken, solution = method.run(periods)
         if further / periods * taken > budget:
             break
-    found = errors(problem, solution, reference.windows, periods)
+    found = problem.errors(solution, reference.windows, periods)
     if periods < problem.periods:
         notes[method.row.method, "length"] = (
             f"followed over {periods} of {problem.periods} drive periods: the next longer run "

@@ -9,13 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.measures import (
-    NoOscillation,
-    dominant_frequency,
-    peak,
-    share_of,
-    slow_displacement,
-)
+from slider_resonator.checks import measures
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import DrivePeriods, common_period
 from slider_resonator.device.held_inputs import HeldInputs
@@ -33,6 +27,35 @@ HALVINGS = 5
 """The motion is read in windows that end at the end of the run, at half of it, and so on."""
 POINTS = 16
 """Readings in a window, which is a drive period long."""
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Signals at `times` (s) and counts over the run, None where the method does not report them.
+
+    `position` (m) and `velocity` (m/s) have the shape (n,) of the times, `mean_velocity` (m/s) too
+    where the method has one of its own, `last_event` (s) where it locates events. `history` holds
+    the times and mean velocities of its own steps, for the beat. `start_cpu` is the CPU time (s) of
+    initialisation.
+    """
+
+    times: Array
+    position: Array
+    velocity: Array
+    mean_velocity: Array | None = None
+    last_event: Array | None = None
+    history: tuple[Array, Array] | None = None
+    steps: int | None = None
+    evaluations: int | None = None
+    events: int | None = None
+    start_cpu: float | None = None
+
+
+Readings = Mapping[str, Array]
+"""What is compared by name, a row for each window of a problem, shape (w,) or (w, POINTS + 1).
+
+Without `last_event` where no event is located.
+"""
 
 
 @dataclass(frozen=True)
@@ -130,6 +153,43 @@ class Problem:
         """Return the inputs of reference and peers: straight lines from corner to corner."""
         return self.schedule(periods, self.duration(periods), interpolates=True).held()
 
+    def read(self, solution: Solution, periods: int) -> Readings:
+        """Return the readings of a solution over `periods` drive periods, window by window."""
+        times = self.windows(periods)
+        places = np.array([nearest(solution.times, window) for window in times])
+        position, last = solution.position[places], places[:, -1]
+        lengths = times[:, -1] - times[:, 0]
+        mean = (position[:, -1] - position[:, 0]) / lengths
+        if solution.mean_velocity is not None:
+            mean = solution.mean_velocity[last]
+        parts = zip(times, position, lengths, strict=True)
+        slow = [measures.slow_displacement(*part)[-1] for part in parts]
+        return {
+            "mean_velocity": mean,
+            "slow_displacement": np.array(slow),
+            "position": position,
+            "velocity": solution.velocity[places],
+            **({} if solution.last_event is None else {"last_event": solution.last_event[last]}),
+        }
+
+    def errors(self, solution: Solution, reference: Readings, periods: int) -> dict[str, float]:
+        """Return the error of each quantity of a solution, infinite where it is not finite."""
+        reported = {}
+        for name, found in self.read(solution, periods).items():
+            if name not in reference:
+                continue
+            expected = reference[name][: len(found)]
+            off = measures.peak(found - expected)
+            if name == "last_event":
+                reported["event_times"] = off / self.period
+            else:
+                reported[name] = measures.share_of(off, measures.peak(expected))
+        if self.beat is not None and solution.history is not None:
+            beat = _beat(*solution.history, self.beat)
+            if beat is not None:
+                reported["beat_frequency"] = abs(beat - self.beat) / self.beat
+        return {name: error if np.isfinite(error) else np.inf for name, error in reported.items()}
+
 
 def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | None) -> Problem:
     """Return the problem of a scene; `varied` are the values of its sweep.
@@ -164,28 +224,6 @@ def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | Non
 
 
 @dataclass(frozen=True)
-class Solution:
-    """Signals at `times` (s) and counts over the run, None where the method does not report them.
-
-    `position` (m) and `velocity` (m/s) have the shape (n,) of the times, `mean_velocity` (m/s) too
-    where the method has one of its own, `last_event` (s) where it locates events. `history` holds
-    the times and mean velocities of its own steps, for the beat. `start_cpu` is the CPU time (s) of
-    initialisation.
-    """
-
-    times: Array
-    position: Array
-    velocity: Array
-    mean_velocity: Array | None = None
-    last_event: Array | None = None
-    history: tuple[Array, Array] | None = None
-    steps: int | None = None
-    evaluations: int | None = None
-    events: int | None = None
-    start_cpu: float | None = None
-
-
-@dataclass(frozen=True)
 class SteadyMethod:
     """A method to find a steady velocity (m/s) or a blocking force (N), the answer of its `row`.
 
@@ -215,32 +253,6 @@ class Method:
     answers: Sequence[SteadyMethod] = ()
 
 
-Readings = Mapping[str, Array]
-"""What is compared by name, a row for each window of a problem, shape (w,) or (w, POINTS + 1).
-
-Without `last_event` where no event is located.
-"""
-
-
-def windows(problem: Problem, solution: Solution, periods: int) -> Readings:
-    """Return the readings of a solution over `periods` drive periods, window by window."""
-    times = problem.windows(periods)
-    places = np.array([nearest(solution.times, window) for window in times])
-    position, last = solution.position[places], places[:, -1]
-    lengths = times[:, -1] - times[:, 0]
-    mean = (position[:, -1] - position[:, 0]) / lengths
-    if solution.mean_velocity is not None:
-        mean = solution.mean_velocity[last]
-    slow = [slow_displacement(*one)[-1] for one in zip(times, position, lengths, strict=True)]
-    return {
-        "mean_velocity": mean,
-        "slow_displacement": np.array(slow),
-        "position": position,
-        "velocity": solution.velocity[places],
-        **({} if solution.last_event is None else {"last_event": solution.last_event[last]}),
-    }
-
-
 def solution_of(run: Trajectory, *, located: bool) -> Solution:
     """Return a trajectory as a solution; reversals stand for events that are not located."""
     last = np.append(0.0, run.event_times)[np.searchsorted(run.event_times, run.time, "right")]
@@ -253,24 +265,6 @@ def solution_of(run: Trajectory, *, located: bool) -> Solution:
         evaluations=run.evaluations,
         events=len(run.event_times if located else run.reversal_times),
     )
-
-
-def errors(
-    problem: Problem, solution: Solution, reference: Readings, periods: int
-) -> dict[str, float]:
-    """Return the error of each quantity of a solution, infinite where it is not finite."""
-    reported = {}
-    for name, found in windows(problem, solution, periods).items():
-        expected = reference[name][: len(found)] if name in reference else None
-        if expected is not None and name == "last_event":
-            reported["event_times"] = peak(found - expected) / problem.period
-        elif expected is not None:
-            reported[name] = share_of(peak(found - expected), peak(expected))
-    if problem.beat is not None and solution.history is not None:
-        beat = _beat(*solution.history, problem.beat)
-        if beat is not None:
-            reported["beat_frequency"] = abs(beat - problem.beat) / problem.beat
-    return {name: error if np.isfinite(error) else np.inf for name, error in reported.items()}
 
 
 def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
@@ -286,6 +280,6 @@ def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
     if len(later) < 16 or not beats > 2.0 or beats > 0.4 * (len(later) - 1):
         return None
     try:
-        return dominant_frequency(later, mean_velocity[half:])
-    except NoOscillation:
+        return measures.dominant_frequency(later, mean_velocity[half:])
+    except measures.NoOscillation:
         return np.inf

@@ -1,7 +1,7 @@
 """Short problems that the tests of the trade share."""
 
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trading.problem import Problem, Readings, problem_of, solution_of, windows
+from slider_resonator.trading.problem import Problem, Readings, problem_of, solution_of
 from tests.harness.scene_text import scene_of
 
 
@@ -13,7 +13,7 @@ def reference_of(problem: Problem) -> Readings:
     """The readings of a problem by the Taylor references, over its whole run."""
     periods = problem.periods
     run = simulate(problem.device, problem.lines(periods), problem.readings(periods))
-    return windows(problem, solution_of(run, located=True), periods)
+    return problem.read(solution_of(run, located=True), periods)
 
 
 TABLE_1 = ""

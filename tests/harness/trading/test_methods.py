@@ -14,7 +14,7 @@ from slider_resonator.trading import measure
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.measure import find_reference, measure_trade
 from slider_resonator.trading.peer_methods import shoot
-from slider_resonator.trading.problem import MIN_PERIODS, Method, Problem, Solution, errors, windows
+from slider_resonator.trading.problem import MIN_PERIODS, Method, Problem, Solution
 from slider_resonator.trading.result import PEER, Row
 from tests.harness.in_process import InProcess
 from tests.harness.trading.problems import (
@@ -30,7 +30,7 @@ from tests.harness.trading.problems import (
 
 def followed(problem: Problem, method: Method) -> dict[str, float]:
     _, solution = method.run(problem.periods)
-    return errors(problem, solution, reference_of(problem), problem.periods)
+    return problem.errors(solution, reference_of(problem), problem.periods)
 
 
 def pick(
@@ -224,14 +224,14 @@ def drifting(problem: Problem) -> Solution:
 def test_each_error_is_a_share_of_the_peak(short: Problem) -> None:
     solution = drifting(short)
     assert solution.last_event is not None
-    reference = windows(short, solution, 4)
+    reference = short.read(solution, 4)
     late = replace(
         solution,
         position=1.01 * solution.position,
         velocity=solution.velocity + 0.025,
         last_event=solution.last_event + 1e-3 * short.period,
     )
-    found = errors(short, late, reference, 4)
+    found = short.errors(late, reference, 4)
     for name in ("position", "mean_velocity", "slow_displacement"):
         assert found[name] == pytest.approx(0.01), name
     assert found["velocity"] == pytest.approx(0.01)
@@ -242,11 +242,11 @@ def test_short_runs_and_nan_have_errors(short: Problem) -> None:
     solution = drifting(short)
     early = solution.times <= 2.0001 * short.period
     half = Solution(solution.times[early], solution.position[early], solution.velocity[early])
-    found = errors(short, half, windows(short, solution, 4), 2)
+    found = short.errors(half, short.read(solution, 4), 2)
     assert found["position"] == 0.0
     assert "event_times" not in found, "a method that locates no events has no error of them"
     broken = replace(solution, velocity=np.full_like(solution.velocity, nan))
-    assert errors(short, broken, windows(short, solution, 4), 4)["velocity"] == inf
+    assert short.errors(broken, short.read(solution, 4), 4)["velocity"] == inf
 
 
 @pytest.mark.parametrize(("step", "reported"), [(1, True), (7, True), (10, False), (100, False)])
@@ -257,9 +257,9 @@ def test_a_beat_needs_enough_samples(step: int, reported: bool) -> None:
     history = (ends, np.sin(2.0 * np.pi * 1.001 * beating.beat * ends))
     times = beating.readings(1600)
     solution = Solution(times, times, np.ones_like(times), history=history)
-    found = errors(beating, solution, windows(beating, solution, 1600), 1600)
+    found = beating.errors(solution, beating.read(solution, 1600), 1600)
     assert ("beat_frequency" in found) == reported, "twenty periods are a beat"
     early = replace(solution, history=(history[0][:1], history[1][:1]))
-    assert "beat_frequency" not in errors(beating, early, windows(beating, solution, 1600), 1600)
+    assert "beat_frequency" not in beating.errors(early, beating.read(solution, 1600), 1600)
     if reported:
         assert found["beat_frequency"] == pytest.approx(1e-3, rel=1e-3)

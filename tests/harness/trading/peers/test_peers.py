@@ -12,7 +12,7 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import simulate as resolved
 from slider_resonator.trading.peer_methods import peer_methods
 from slider_resonator.trading.peers.event_free import simulate
-from slider_resonator.trading.problem import Method, errors
+from slider_resonator.trading.problem import Method
 from tests.harness.references.comparing import deviation, until
 from tests.harness.trading.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
 from tests.problems import SIGNALS
@@ -40,7 +40,7 @@ def test_the_last_setting_of_each_family_is_near_the_reference(text: str) -> Non
         if family.startswith("DOP853 on sgn"):
             continue
         _, solution = peer.run(PERIODS)
-        found = errors(short, solution, reference, PERIODS)
+        found = short.errors(solution, reference, PERIODS)
         is_exact = any(family.startswith(exact) for exact in EXACT)
         allowed = 1e-6 if is_exact else 5e-2
         compared = "slow_displacement" if family.startswith("averaged") else "velocity"
