@@ -53,9 +53,6 @@ class Parsed(click.ParamType[Value]):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> Value:
         """Return what is read, or fail with the message of the error."""
-        if not isinstance(value, str):
-            found: Value = value
-            return found
         parts = self.pattern.fullmatch(value)
         if parts is None:
             self.fail(f"{value!r} is not {self.name}, such as {self.example}", param, ctx)
@@ -231,41 +228,36 @@ def default_fmu(given: Path | None) -> Path:
     return given if given is not None else default_fmus()[0]
 
 
-def other_fmu_argument(
-    default: str, chosen: Callable[[Path | None], Path | None] = lambda given: given
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return what adds an FMU as an argument or as the option --fmu; the command gets it as `fmu`.
+def fmu_argument(
+    command: Callable[..., Any],
+    default: str = "the native one, in dist or installed",
+    chosen: Callable[[Path | None], Path | None] = default_fmu,
+) -> Callable[..., Any]:
+    """Add an FMU as an argument or as the option --fmu; the command gets it as `fmu`.
 
     Without one the command gets what is `chosen`; `default` is the text about that.
     """
 
-    def add(command: Callable[..., Any]) -> Callable[..., Any]:
-        @click.argument("fmu", type=click.Path(path_type=Path), required=False)
-        @click.option(
-            "--fmu",
-            "given",
-            type=FMU_FILE,
-            help=f"The FMU, instead of as an argument.  [default: {default}]",
-        )
-        @wraps(command)
-        def with_fmu(fmu: Path | None, given: Path | None, **others: Any) -> Any:
-            if others.get("scene", "") is None:  # the one argument, if any, is the FMU or the scene
-                others["scene"] = FIRST
-                if fmu is not None and fmu.suffix != ".fmu":
-                    find_scene(str(fmu))  # a wrong name comes before a default FMU not built
-                    fmu, others["scene"] = None, str(fmu)
-            fmu = fmu and _no_toml("FMU", str(fmu))
-            if fmu is not None and given is not None:
-                raise click.UsageError(f"{fmu} and --fmu {given}: must be one FMU")
-            return command(fmu=chosen(fmu or given), **others)
+    @click.argument("fmu", type=click.Path(path_type=Path), required=False)
+    @click.option(
+        "--fmu",
+        "given",
+        type=FMU_FILE,
+        help=f"The FMU, instead of as an argument.  [default: {default}]",
+    )
+    @wraps(command)
+    def with_fmu(fmu: Path | None, given: Path | None, **others: Any) -> Any:
+        if others.get("scene", "") is None:  # the one argument, if any, is the FMU or the scene
+            others["scene"] = FIRST
+            if fmu is not None and fmu.suffix != ".fmu":
+                find_scene(str(fmu))  # a wrong name comes before a default FMU not built
+                fmu, others["scene"] = None, str(fmu)
+        fmu = fmu and _no_toml("FMU", str(fmu))
+        if fmu is not None and given is not None:
+            raise click.UsageError(f"{fmu} and --fmu {given}: must be one FMU")
+        return command(fmu=chosen(fmu or given), **others)
 
-        return with_fmu
-
-    return add
-
-
-fmu_argument = other_fmu_argument("the native one, in dist or installed", default_fmu)
-"""Adds an FMU as an argument or as the option --fmu, by default that of `default_fmu`."""
+    return with_fmu
 
 
 def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:

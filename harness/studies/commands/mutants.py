@@ -8,9 +8,9 @@ from typing import Any
 import click
 
 from slider_resonator.commands.options import (
+    fmu_argument,
     jobs_option,
     json_option,
-    other_fmu_argument,
     scenes_option,
     target,
     time_limit_option,
@@ -44,7 +44,7 @@ MIN_NATIVE_RATE = 0.97
 
 
 @click.command("mutants")
-@other_fmu_argument("the one in dist for the kind of mutant")
+@partial(fmu_argument, default="the one in dist for the kind of mutant", chosen=lambda given: given)
 @click.option(
     "--native",
     is_flag=True,
