@@ -7,12 +7,7 @@ import click
 from slider_resonator.baseline.golden import TOLERANCE
 from slider_resonator.baseline.work import accept, check, record
 from slider_resonator.commands.options import fmu_argument, scenes_option, time_limit_option
-from slider_resonator.commands.reports import (
-    Reports,
-    print_run_failures,
-    print_verdicts,
-    report_options,
-)
+from slider_resonator.commands.reports import Reports, print_run_failures, report_options
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import print_text
@@ -126,7 +121,7 @@ def check_command(
     except HarnessError as error:
         reports.write([], str(error))
         raise
-    print_verdicts([result], details=details, as_json=reports.prints_json, only_failed=not details)
+    reports.print([result], details=details, only_failed=not details)
     reports.write([result])
     return result.exit_code
 

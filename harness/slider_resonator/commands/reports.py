@@ -9,13 +9,7 @@ from typing import Any
 
 import click
 
-from slider_resonator.checks.reports.for_ci import (
-    VARIABLE,
-    append_summary,
-    validations_as_json,
-    write_json,
-    write_junit,
-)
+from slider_resonator.checks.reports import for_ci
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.commands.options import Parsed, target
@@ -47,19 +41,32 @@ class Reports:
         """Whether only JSON goes to standard output."""
         return self.json == PRINTED
 
+    def print(
+        self, validations: Sequence[Validation], *, details: bool, only_failed: bool = False
+    ) -> None:
+        """Print the tables or one JSON document, and the run failures on standard error."""
+        if self.prints_json:
+            click.echo(for_ci.validations_as_json(validations))
+        for validation in validations:
+            if (validation.checks or validation.not_applied) and not self.prints_json:
+                print_validation(output(), validation, details=details, only_failed=only_failed)
+            print_run_failures(validation.fmu, validation.run_failures)
+            if validation.exit_code == 2 and not validation.run_failures:
+                print_text(f"error: {validation.fmu}: {validation.outcome}", err=True)
+
     def write(self, validations: Sequence[Validation], error: str = "") -> None:
         """Write all requested reports; HarnessError when one cannot be written."""
         if self.json is not None and not self.prints_json:
-            write_json(self.json, validations, error)
+            for_ci.write_json(self.json, validations, error)
         if self.junit is not None:
-            write_junit(self.junit, validations, error, title=self.title)
+            for_ci.write_junit(self.junit, validations, error, title=self.title)
         if self.html is not None:
             # Imported here: drawing takes longer to load than everything else.
             from slider_resonator.checks.reports.html_report import write_html
 
             write_html(self.html, validations, error, title=self.title)
         if self.summary is not None:  # last, for it may fail and the user has not named it
-            append_summary(self.summary, validations, error, title=self.title)
+            for_ci.append_summary(self.summary, validations, error, title=self.title)
 
 
 def report_options(title: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
@@ -82,27 +89,13 @@ def report_options(title: str) -> Callable[[Callable[..., Any]], Callable[..., A
         def with_reports(
             junit: Path | None, html: Path | None, json: Path | None, **others: Any
         ) -> Any:
-            summary = os.environ.get(VARIABLE)
+            summary = os.environ.get(for_ci.VARIABLE)
             path = Path(summary) if summary else None
             return command(reports=Reports(title, junit, html, json, path), **others)
 
         return with_reports
 
     return add
-
-
-def print_verdicts(
-    validations: Sequence[Validation], *, details: bool, as_json: bool, only_failed: bool = False
-) -> None:
-    """Print the tables or one JSON document, and the run failures on standard error."""
-    if as_json:
-        click.echo(validations_as_json(validations))
-    for validation in validations:
-        if (validation.checks or validation.not_applied) and not as_json:
-            print_validation(output(), validation, details=details, only_failed=only_failed)
-        print_run_failures(validation.fmu, validation.run_failures)
-        if validation.exit_code == 2 and not validation.run_failures:
-            print_text(f"error: {validation.fmu}: {validation.outcome}", err=True)
 
 
 def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:

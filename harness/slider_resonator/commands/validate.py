@@ -8,7 +8,7 @@ from slider_resonator.checks.own_experiments import validate_own
 from slider_resonator.checks.validate import validate
 from slider_resonator.checks.verdict import TITLE
 from slider_resonator.commands import options
-from slider_resonator.commands.reports import Reports, print_verdicts, report_options
+from slider_resonator.commands.reports import Reports, report_options
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.progress import progress_bar
@@ -75,7 +75,7 @@ def validate_command(
     except HarnessError as error:
         reports.write([], str(error))
         raise
-    print_verdicts(validations, details=details, as_json=reports.prints_json)
+    reports.print(validations, details=details)
     if not own and any(one.checks and one.run_failures for one in validations):
         options.note(["--scene limits the scenes to those that the FMU can run"])
     reports.write(validations)
