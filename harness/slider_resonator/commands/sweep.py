@@ -114,9 +114,8 @@ def sweep_command(
     """
     if (grid is None) == (not axes) or (measures and not axes):
         raise click.UsageError("must have either GRID or --over, and --measure with that only")
-    sources = {"the grid": grid, "the FMU": fmu}
-    read = {name: path for name, path in sources.items() if path is not None}
-    distinct({"--out": out, "--plot": plot, "--html": html}, read)
+    sources = {"the FMU": fmu} | ({"the grid": grid} if grid is not None else {})
+    distinct({"--out": out, "--plot": plot, "--html": html}, sources)
     device = given.device
     own = device.values if device else {}
     if grid is not None:
@@ -152,9 +151,8 @@ def sweep_command(
         result.plot(plot)
     if html is not None:
         write_sweep_page(html, sweep, result.columns, provenance)
-    facts = {"points": result.points, "found": result.found, "failed": result.failed}
-    facts["unanswered"] = result.unanswered
-    document = {"out": str(out), **facts, "first_error": result.first_error}
+    facts = ("points", "found", "failed", "unanswered", "first_error")
+    document = {"out": str(out)} | {name: getattr(result, name) for name in facts}
     written = ", ".join(map(str, [out, *filter(None, (plot, html))]))
     lines = [*result.sentences(), f"written    {one_line(written)}"]
     print_result(document, lines, as_json=as_json, provenance=provenance)

@@ -18,6 +18,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.equations import equations_of
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.problem import Solution
 
@@ -56,9 +57,9 @@ def heyoka_in_one_call(
     integrator.reset_cooldowns()
     integrator.pars[DIRECTION] = direction
     if device.friction_law == 1:
-        bent = device.bristle_stiffness * float(start.bristle_deflection[-1])
+        bent = float(start.bristle_deflection[-1])
         integrator.pars[REVERSED_AT] = 0.0
-        integrator.pars[STRETCH] = bent / device.friction_coefficient
+        integrator.pars[STRETCH] = bent * equations_of(device).path_rate
     motion = (start.velocity, start.resonator_displacement, start.resonator_velocity)
     integrator.state[:] = [0.0, *(float(values[-1]) for values in motion)]
     ends = [integrator.time, inputs.stop - inputs.start]
@@ -94,30 +95,24 @@ def _compiled(
         ) from error
     x, v, y, u = hy.make_vars("x", "v", "y", "u")
     phase, load, ratio = inputs
-    w, wn, mass = device.drive_frequency, device.resonator_frequency, device.resonator_mass
-    limit = device.friction_faces * device.friction_coefficient
-    rate = device.bristle_stiffness / device.friction_coefficient
-    drag = device.bristle_damping / device.friction_coefficient
-    drive = hy.sin(w * hy.time)
-    varying = device.normal_amplitude * hy.sin(ratio * w * hy.time + phase)
-    spring = 2.0 * device.damping_ratio * mass * wn * u + mass * wn * wn * y
+    e = equations_of(device)
+    drive = hy.sin(e.drive_frequency * hy.time)
+    varying = e.friction_amplitude * hy.sin(ratio * e.drive_frequency * hy.time + phase)
     direction = share = hy.par[DIRECTION]
-    if device.friction_law == 1:
-        fade = hy.exp(-rate * direction * (x - hy.par[REVERSED_AT]))
+    if e.path_rate:
+        fade = hy.exp(-e.path_rate * direction * (x - hy.par[REVERSED_AT]))
         stretch = direction - (direction - hy.par[STRETCH]) * fade
-        # sigma_1 z' / mu, with z the stretch s0 z / mu: sigma_1 v (1 - direction z) / mu.
-        share = stretch + drag * v * (1.0 - direction * stretch)
-    friction = limit * (device.normal_preload + varying) * share
-    force = spring + device.tangential_force * drive - load - friction
-    acceleration = force / device.slider_mass
-    swing = device.base_amplitude * w * w * drive - spring / mass - acceleration
+        share = stretch + e.path_damping * v * (1.0 - direction * stretch)
+    force = e.coupling_damping * u + e.coupling_stiffness * y + e.force_sine * drive - load
+    acceleration = (force - (e.friction_mean + varying) * share) / e.inertia
+    swing = e.base_acceleration * drive - e.damping_rate * u - e.stiffness_rate * y - acceleration
     counter = _Counter()
 
     def reverse(integrator: Any, sign: int) -> bool:
         pars = integrator.pars
         turned, position = pars[DIRECTION], integrator.state[0]
-        if device.friction_law == 1:
-            fade = math.exp(-rate * turned * (position - pars[REVERSED_AT]))
+        if e.path_rate:
+            fade = math.exp(-e.path_rate * turned * (position - pars[REVERSED_AT]))
             pars[STRETCH] = turned - (turned - pars[STRETCH]) * fade
             pars[REVERSED_AT] = position
         pars[DIRECTION] = -turned
@@ -125,7 +120,7 @@ def _compiled(
         return True
 
     system = [(x, v), (v, acceleration), (y, u), (u, swing)]
-    parameters = [0.0] * (3 if device.friction_law == 1 else 1)
+    parameters = [0.0] * (3 if e.path_rate else 1)
     event = hy.t_event(v, callback=reverse)
     integrator = hy.taylor_adaptive(
         system, [0.0] * len(system), pars=parameters, tol=tolerance, t_events=[event]
