@@ -230,9 +230,8 @@ def choose(
     check_kind(Mapping, "errors by quantity", need=need)
     read = scene_of(scene, parameters_of(device), values)
     with explained():
-        if time is not None or step is not None:
-            spans = [one if one is None else positive_time(str(one)) for one in (time, step)]
-            read = read.timed(stop_time=spans[0], step_size=spans[1])
+        spans = [one if one is None else positive_time(str(one)) for one in (time, step)]
+        read = read.timed(stop_time=spans[0], step_size=spans[1])
         if need:
             read = read.needing({name: allowed_error(name, str(e)) for name, e in need.items()})
     return choose_model(read, fmu_of(fmu))

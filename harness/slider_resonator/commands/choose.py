@@ -69,9 +69,7 @@ def choose_command(
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
     given.check_left_to_choose()
-    read = given.scene(scene)
-    if stop_time is not None or step_size is not None:
-        read = read.timed(stop_time=stop_time, step_size=step_size)
+    read = given.scene(scene).timed(stop_time=stop_time, step_size=step_size)
     if needs:
         read = read.needing(needs)
     provenance = provenance_of(fmu)

@@ -57,7 +57,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 )
 @click.option(
     "--signals",
-    metavar="NAME,...",
+    type=options.Parsed("NAME,...", lambda text: [name.strip() for name in text.split(",")]),
     help="With --plot: the outputs, inputs and tuned parameters to draw, a panel each, in place of "
     "the usual panels.",
 )
@@ -99,7 +99,7 @@ def run_command(
     step_size: float | None,
     out: Path | None,
     plot: Path | None,
-    signals: str | None,
+    signals: Sequence[str] | None,
     window: tuple[float, float] | None,
     overlays: tuple[tuple[str, float] | Path, ...],
     auto: bool,
@@ -126,9 +126,7 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    read = given.scene(scene)
-    if stop_time is not None or step_size is not None:
-        read = read.timed(stop_time=stop_time, step_size=step_size)
+    read = given.scene(scene).timed(stop_time=stop_time, step_size=step_size)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}
@@ -143,12 +141,11 @@ def run_command(
         given.check_left_to_choose()
     choice: Choice | None = None
     provenance = provenance_of(fmu, *others.values())
-    names = [name.strip() for name in signals.split(",")] if signals is not None else None
     if is_chosen:
         # Imported here: drawing takes longer to load than the rest to run.
         from slider_resonator.scenes.run_plots import check_plot
 
-        check_plot(read, names or (), window)
+        check_plot(read, signals or (), window)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
             # Imported here: it loads scipy.
@@ -171,7 +168,7 @@ def run_command(
             write_csv(out, columns, rows, quotes_text=True)
         if is_chosen and plot is not None:
             shown = window or (0.0, float(record.times[-1]))
-            _draw_signals(isolated, fmu, read, names, shown, overlays, plot, time_limit, progress)
+            _draw_signals(isolated, fmu, read, signals, shown, overlays, plot, time_limit, progress)
         elif plot is not None:
             from slider_resonator.output.plot_style import save
             from slider_resonator.scenes.run_plots import run_figure, schedule_to_plot

@@ -206,6 +206,8 @@ class Scene(Shown):
         Messages about it name the scene, as its file does not say so.
         Raises SceneError for a scene without a run, and as a scene does.
         """
+        if stop_time is None and step_size is None:
+            return self
         if self.run is None:
             raise SceneError(f"{self.source}: scene {self.name} has no [run] that could be changed")
         changed: dict[str, float | None] = {}
