@@ -294,16 +294,6 @@ fmu_option = click.option(
     help="FMU to run.  [default: the native one, in dist or installed]",
 )
 
-_settings_option = click.option(
-    SET,
-    "settings",
-    type=Parsed("NAME=VALUE", setting, "(.*?)=(.*)", "phase=0.4"),
-    multiple=True,
-    callback=each_once,
-    help="Set a parameter or input, in SI units or with a unit, as 'load=50 mN'; more NAME=VALUE "
-    "may follow. All others keep the value of the device. Repeatable.",
-)
-
 
 def device_file(name_or_file: str) -> DeviceFile:
     """Return a device file or an example; note slips.
@@ -325,12 +315,22 @@ device_option = click.option(
 def device_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add --device and --set: the command gets what they say as `given`."""
 
+    @device_option
+    @click.option(
+        SET,
+        "settings",
+        type=Parsed("NAME=VALUE", setting, "(.*?)=(.*)", "phase=0.4"),
+        multiple=True,
+        callback=each_once,
+        help="Set a parameter or input, in SI units or with a unit, as 'load=50 mN'; more "
+        "NAME=VALUE may follow. All others keep the value of the device. Repeatable.",
+    )
     @wraps(command)
     def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
         read = None if device is None else device_file(device)
         return command(given=Given(read, settings), **others)
 
-    return device_option(_settings_option(with_device))
+    return with_device
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")

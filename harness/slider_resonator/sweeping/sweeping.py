@@ -298,13 +298,12 @@ def check_nothing_lost(path: Path, before: Columns, now: Columns) -> None:
 
     `now` are some rows of the table to be. They can be of another device: a table does not tell.
     """
-    is_text = path.suffix.lower() == ".csv"
     for name in [name for name in now if name in before and name != "error"]:
         for point, value in zip(now["point"], now[name], strict=True):
-            old, new = before[name][point], str(value) if is_text else value
-            if old not in (None, "", new):
+            old = before[name][point]
+            if old not in (None, "", value, str(value)):
                 raise HarnessError(
-                    f"{path}: has {name} = {old} at point {point}, now {new}, of another device, "
+                    f"{path}: has {name} = {old} at point {point}, now {value}, of another device, "
                     f"FMU or version; {REMEDY}"
                 )
 

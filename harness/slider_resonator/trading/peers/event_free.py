@@ -25,7 +25,7 @@ from slider_resonator.references.resolved.trajectory import Recorder, Trajectory
 
 MAX_EVALUATIONS = 20_000_000
 STEPS_PER_FASTEST_PERIOD = 16
-"""Of bristles, which a longer step would pass by."""
+"""Longer steps would pass by bristles, and two events within one."""
 
 
 def simulate(

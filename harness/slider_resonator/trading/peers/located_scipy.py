@@ -20,12 +20,11 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.mode_sequence import ModeSequence, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.trading.peers.event_free import take_step
+from slider_resonator.trading.peers.event_free import STEPS_PER_FASTEST_PERIOD, take_step
 
 Dense = Callable[[float | Array], Array]
 """States, shape (4,) or (4, n), at a time or at times (n,) within a step."""
 
-STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8
 _NOISE = 1e-15
 
