@@ -16,13 +16,7 @@ from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.output.console import print_text
 from slider_resonator.output.files import writable
-from slider_resonator.scenes.device_file import (
-    DeviceFile,
-    possible_slips,
-    read_device_file,
-    refuse_other_kinds,
-    without_drive,
-)
+from slider_resonator.scenes import device_file
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import FIRST, built_in_scenes, find_scene
 from slider_resonator.scenes.toml_file import read_toml
@@ -88,7 +82,7 @@ def setting(name: str, number: str) -> tuple[str, float]:
     name = name.strip()
     value = settable_value(name, number)
     if is_number(number):
-        note(possible_slips({name: value}))
+        note(device_file.possible_slips({name: value}))
     return name, value
 
 
@@ -102,7 +96,7 @@ def note(sentences: Sequence[str], source: str = "") -> None:
 class Given:
     """What --device and --set say: a device file or None, and parameters and inputs."""
 
-    device: DeviceFile | None
+    device: device_file.DeviceFile | None
     settings: Mapping[str, float]
 
     @property
@@ -201,7 +195,7 @@ def _no_toml(kind: str, text: str) -> Path:
     if text.partition("=")[0] in SETTABLE and not path.exists():
         raise SceneError(f"{text}: no such file; must be a file, or --set {text}")
     if path.suffix == ".toml" and path.is_file():
-        refuse_other_kinds(read_toml(path), text, kind)
+        device_file.refuse_other_kinds(read_toml(path), text, kind)
     return path
 
 
@@ -295,13 +289,13 @@ fmu_option = click.option(
 )
 
 
-def device_file(name_or_file: str) -> DeviceFile:
+def read_device(name_or_file: str) -> device_file.DeviceFile:
     """Return a device file or an example; note slips.
 
     Raises SceneError as `read_device_file` does.
     """
-    read = read_device_file(name_or_file)
-    note([*read.slips, *without_drive(read.values)], name_or_file)
+    read = device_file.read_device_file(name_or_file)
+    note([*read.slips, *device_file.without_drive(read.values)], name_or_file)
     return read
 
 
@@ -327,7 +321,7 @@ def device_options(command: Callable[..., Any]) -> Callable[..., Any]:
     )
     @wraps(command)
     def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
-        read = None if device is None else device_file(device)
+        read = None if device is None else read_device(device)
         return command(given=Given(read, settings), **others)
 
     return with_device

@@ -106,7 +106,7 @@ def stress_command(
     if name is not None:
         cases = [case_named(name)]
     elif device is not None:
-        cases = device_cases(device, options.device_file(device).values)
+        cases = device_cases(device, options.read_device(device).values)
     elif count is not None:
         cases = [random_case(seed, number) for number in range(first, first + count)]
     else:
@@ -142,7 +142,7 @@ def case_named(name: str) -> Case:
         return random_case(int(drawn[1]), int(drawn[2]))
     own = _OWN.match(name)
     found = (
-        device_cases(own[1], options.device_file(own[1]).values) if own else axis_cases(long=True)
+        device_cases(own[1], options.read_device(own[1]).values) if own else axis_cases(long=True)
     )
     cases = {case.name: case for case in found}
     if name not in cases:

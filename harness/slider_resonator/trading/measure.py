@@ -120,13 +120,14 @@ def measure_trade(
         methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
         answers = [answer for fmu in fmus for answer in fmu.answers]
         answers += [answer for method in methods for answer in method.answers]
-        tried = [(one.row, partial(_follow, method=one)) for one in methods]
-        tried += [(one.row, partial(_answer, answer=one)) for one in answers]
+        given = (problem, reference, budget)
+        tried = [(one.row, partial(_follow, *given, one, notes)) for one in methods]
+        tried += [(one.row, partial(_answer, *given, one)) for one in answers]
         for index, (row, measured) in enumerate(tried):
             report(row, index, len(tried), 0.0, 0.6)
             quantity = "all" if row.answer == "run" else row.answer
             try:
-                candidates.append(measured(problem, reference, budget=budget, notes=notes))
+                candidates.append(measured())
             except FmuDied:
                 raise
             except _FAILURES as error:
@@ -156,7 +157,7 @@ def measure_trade(
 
 
 def _follow(
-    problem: Problem, reference: Reference, method: Method, budget: float, notes: _Notes
+    problem: Problem, reference: Reference, budget: float, method: Method, notes: _Notes
 ) -> _Candidate:
     """Run a method as far as its budget (s of CPU time) takes it; ValueError where it has no run.
 
@@ -207,7 +208,7 @@ def _follow(
 
 
 def _answer(
-    problem: Problem, reference: Reference, answer: SteadyMethod, budget: float, notes: _Notes
+    problem: Problem, reference: Reference, budget: float, answer: SteadyMethod
 ) -> _Candidate:
     """Find an answer once; ValueError where there is none, besides one of `_FAILURES`."""
     quantity = answer.row.answer
