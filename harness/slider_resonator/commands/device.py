@@ -11,13 +11,7 @@ from slider_resonator.output.console import print_result
 from slider_resonator.output.files import distinct, write_text
 from slider_resonator.output.readable import escaped, number_of, one_line
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.scenes.device_file import (
-    example_devices,
-    find_device,
-    read_device_file,
-    to_ssv,
-    without_drive,
-)
+from slider_resonator.scenes import device_file
 from slider_resonator.scenes.key_table import PARAMETER_MEANINGS
 
 
@@ -50,14 +44,15 @@ def device_command(
     if device is not None and example is not None:
         raise click.UsageError(f"{device} and --example {example}: must be only one")
     if example is not None:
-        text = find_device(example).read_text(encoding="utf-8", errors="replace")
+        text = device_file.find_device(example).read_text(encoding="utf-8", errors="replace")
         click.echo(escaped(text), nl=False)
     elif device is not None:
         _explain(device, ssv, as_json)
     elif ssv is not None:
         raise click.UsageError(f"--ssv {ssv}: must be with a device file or an example")
     else:
-        titles = {name: read_device_file(name).title for name in example_devices()}
+        names = device_file.example_devices()
+        titles = {name: device_file.read_device_file(name).title for name in names}
         table = Table(texts("device", "what it is"), list(titles.items()))
         hint = "`slider-resonator device --example NAME > mine.toml` starts a file of your own"
         document = {"devices": [{"name": n, "title": title} for n, title in titles.items()]}
@@ -65,11 +60,11 @@ def device_command(
 
 
 def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
-    read = read_device_file(name_or_file)
+    read = device_file.read_device_file(name_or_file)
     device = Device.from_mapping(read.values)
     if ssv is not None:
         distinct({"--ssv": ssv}, {"the device": read.path})
-        write_text(ssv, to_ssv(device, read.title))
+        write_text(ssv, device_file.to_ssv(device, read.title))
     rows = {
         name: {
             "value": value,
@@ -90,7 +85,7 @@ def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
         )
         for name, row in rows.items()
     ]
-    notes = [f"note: {one}" for one in (*read.slips, *without_drive(read.values))]
+    notes = [f"note: {one}" for one in (*read.slips, *device_file.without_drive(read.values))]
     notes += [] if ssv is None else [f"written {one_line(str(ssv))}"]
     document = {"device": rows, "possible_slips": read.slips}
     shown = ([read.title], Table(columns, cells), [*_derived(device), *notes])
