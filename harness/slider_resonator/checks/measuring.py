@@ -1,6 +1,6 @@
 """Measure each quantity of the vocabulary in an FMU."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,7 +26,7 @@ from slider_resonator.checks.measures import (
     slow_displacement,
 )
 from slider_resonator.checks.natural_scale import largest_fast_velocity
-from slider_resonator.errors import NotApplicable, SceneError
+from slider_resonator.errors import NotApplicable, Refusal, SceneError
 from slider_resonator.fmu.interface_check import archive_faults, description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -74,6 +74,10 @@ def measure(quantity: str, fmu: FmuSide) -> Measurement:
     Raises SceneError when the scene does not allow it, Refusal when the FMU refuses a call for it.
     """
     try:
+        if quantity in CONDUCT:
+            faults = _faults(quantity, fmu)
+            more = [f"and {len(faults) - SHOWN} more"] if len(faults) > SHOWN else []
+            return Measurement(float(len(faults)), "; ".join([*faults[:SHOWN], *more]))
         with fmu.instance.explained():
             value = MEASURES[quantity](fmu) if quantity in MEASURES else _output(quantity, fmu)
     except NotApplicable as error:
@@ -85,9 +89,6 @@ def measure(quantity: str, fmu: FmuSide) -> Measurement:
         raise SceneError(f"{where} cannot be measured: {error}") from error
     if QUANTITIES[quantity].kind == "signal":
         return Measurement(value, times=fmu.record.times[-len(value) :])
-    if isinstance(value, list):
-        more = [f"and {len(value) - SHOWN} more"] if len(value) > SHOWN else []
-        return Measurement(float(len(value)), "; ".join([*value[:SHOWN], *more]))
     if value is None:
         search = fmu.steady if quantity == "steady_velocity" else fmu.blocking
         return Measurement(None, search.reason)
@@ -97,6 +98,21 @@ def measure(quantity: str, fmu: FmuSide) -> Measurement:
 def measure_all(fmu: FmuSide) -> tuple[Measurement, ...]:
     """Measure each expectation of the scene in turn; SceneError as `measure` raises it."""
     return tuple(measure(expect.quantity, fmu) for expect in fmu.scene.expect)
+
+
+def _faults(quantity: str, fmu: FmuSide) -> list[str]:
+    """Return the faults of conduct; a failed call is one more, or a Refusal where it is alone."""
+    faults: list[str] = []
+    try:
+        with fmu.instance.explained():
+            faults.extend(CONDUCT[quantity](fmu))
+    except Refusal as error:
+        if not faults:
+            raise
+        faults.append(f"and then {error}")
+    if fmu.instance.warned:
+        faults.append(f"{fmu.instance.warned} is answered with a warning")
+    return faults
 
 
 def _output(quantity: str, fmu: FmuSide) -> Any:
@@ -138,6 +154,11 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     ),
     "ripple_frequency": lambda fmu: _frequency_in_later_half(fmu, "velocity"),
     "beat_frequency": lambda fmu: _frequency_in_later_half(fmu, "mean_velocity"),
+}
+"""Quantity to the function that measures it; all others are outputs of the FMU. None stands for a
+value that does not exist."""
+
+CONDUCT: Mapping[str, Callable[[FmuSide], Iterable[str]]] = {
     "reset_differences": replays.reset_differences,
     "restored_differences": replays.restored_differences,
     "transferred_differences": replays.transferred_differences,
@@ -159,5 +180,4 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "host_faults": host_calls.host_faults,
     "state_faults": states.state_faults,
 }
-"""Quantity to the function that measures it; all others are outputs of the FMU. None stands for a
-value that does not exist."""
+"""Quantity to the function that finds what it counts: faults, in words."""

@@ -5,7 +5,7 @@ import pytest
 
 from slider_resonator.checks.expecting import EXPECTED
 from slider_resonator.checks.fmu_side import PREDICTIONS, FmuSide
-from slider_resonator.checks.measuring import MEASURES, measure
+from slider_resonator.checks.measuring import CONDUCT, MEASURES, measure
 from slider_resonator.checks.validate import validate, worst_of_sweeps
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import ALL_OUTPUTS
@@ -148,8 +148,9 @@ def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity
 
 
 def test_every_quantity_has_its_measure_or_is_an_output() -> None:
-    assert set(MEASURES) | set(PREDICTIONS) <= set(QUANTITIES)
-    for name in QUANTITIES.keys() - MEASURES.keys():
+    measured = {*MEASURES, *CONDUCT}
+    assert measured | set(PREDICTIONS) <= set(QUANTITIES)
+    for name in QUANTITIES.keys() - measured:
         assert PREDICTIONS.get(name, name.removesuffix("_in_run")) in ALL_OUTPUTS
 
 

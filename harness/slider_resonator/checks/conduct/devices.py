@@ -47,30 +47,29 @@ LONG_STEP = 0.2
 """A step (s) that takes the last of them beyond."""
 
 
-def device_faults(fmu: FmuSide) -> list[str]:
+def device_faults(fmu: FmuSide) -> Iterator[str]:
     """Start each device, and turn a good one into it in a run; both must be refused by name.
 
     Extreme devices may be refused, but what is accepted has finite outputs.
     """
-    faults: list[str] = []
+    instance = fmu.instance
     for what, (device, cause) in MEANINGLESS.items():
-        trial = Trial(fmu.instance, [], reads=False)
-        start = partial(_start, fmu.instance, {**device, **cause})
+        trial = Trial(instance)
+        start = partial(_start, instance, {**device, **cause})
         trial.refuses(what, start, (*device, *cause))
-        faults += trial.faults or _in_a_run(fmu.instance, what, device, cause)
+        yield from trial.faults or _in_a_run(instance, what, device, cause)
     for device in EXTREMES:
         values = ", ".join(f"{name} = {value:g}" for name, value in device.items())
-        fmu.instance.set_up()
+        instance.set_up()
         with suppress(FMICallException):
-            fmu.instance.set(device)
-            fmu.instance.call("fmi2EnterInitializationMode")
-            fmu.instance.begin()
-            faults += _infinite(fmu.instance, values)
-            fmu.instance.step_by(LONG_STEP)
-            faults += _infinite(fmu.instance, values)
-            if is_refused(fmu.instance.read, ["position", "velocity"]):
-                faults.append(f"a step is accepted but its motion cannot be read: {values}")
-    return faults
+            instance.set(device)
+            instance.call("fmi2EnterInitializationMode")
+            instance.begin()
+            yield from _infinite(instance, values)
+            instance.step_by(LONG_STEP)
+            yield from _infinite(instance, values)
+            if is_refused(instance.read, ["position", "velocity"]):
+                yield f"a step is accepted but its motion cannot be read: {values}"
 
 
 def _start(instance: Instance, device: Values) -> None:
@@ -96,14 +95,12 @@ def _in_a_run(instance: Instance, what: str, device: Values, cause: Values) -> l
         name: (1.0 + NEXT_TO) * start if start == cause[name] else start
         for name, start in starts.items()
     }
-    trial = Trial(instance, [], instance.fmu.outputs)
-    with instance.explained():
-        _start(instance, {**device, **good})
-        expected = outputs_after(instance, STEP)
-        _start(instance, {**device, **good})
+    trial = Trial(instance)
+    trial.watch(*instance.fmu.outputs)
+    _start(instance, {**device, **good})
+    expected = outputs_after(instance, STEP)
+    _start(instance, {**device, **good})
     trial.refuses(f"{what} in a run", partial(instance.set, cause), (*device, *cause))
-    if not trial.faults:
-        with instance.explained():
-            if outputs_after(instance, STEP) != expected:
-                trial.faults.append(f"a run goes on differently after {what} is refused in it")
+    if not trial.faults and outputs_after(instance, STEP) != expected:
+        trial.faults.append(f"a run goes on differently after {what} is refused in it")
     return trial.faults

@@ -4,15 +4,13 @@ import math
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from itertools import pairwise
 from math import isclose, sqrt
 
 from slider_resonator.arrays import is_same
-from slider_resonator.checks.conduct.findings import is_refused, outputs_after
+from slider_resonator.checks.conduct.findings import accepted, is_refused, outputs_after
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 
 EVENT = "last_event_time"
@@ -60,53 +58,48 @@ TOLERANCES = (1e-2, 1e-3, 1e-6, 1e-10)
 """Tolerances that hosts define for an experiment."""
 
 
-def experiment_faults(fmu: FmuSide) -> list[str]:
+def experiment_faults(fmu: FmuSide) -> Iterator[str]:
     """Run a few steps in experiments that must be accepted and not change the motion.
 
     Values are set before the experiment is set up, and no step may be taken back.
     """
     instance = fmu.instance
-    faults: list[str] = []
     for what, experiment in (
         ("up to a stop time that sums of steps exceed by rounding", (False, 0.0)),
         *((f"with a tolerance of {tolerance:g}", (True, tolerance)) for tolerance in TOLERANCES),
         ("with a tolerance that is not defined", (False, -1.0)),
         ("with a tolerance of NaN that is not defined", (False, math.nan)),
     ):
-        with _accepting(instance, faults, f"an experiment {what}"):
-            faults += _run_faults(instance, what, experiment)
+        faults = _run_faults(instance, what, experiment)
+        yield from accepted(instance, f"an experiment {what}", faults)
     for start, stop in ((EARLY, EARLY), (0.0, sys.float_info.max)):
-        with _accepting(instance, faults, f"an experiment from {start:g} s to {stop:g} s"):
-            instance.start({}, start_time=start, stop_time=stop)
-            instance.outputs()
-            if stop == start and not is_refused(instance.step_by, STEP):
-                faults.append(f"a step beyond the stop time {stop:g} s is accepted")
-            instance.terminate()
-    faults += _early_faults(instance)
+        what = f"an experiment from {start:g} s to {stop:g} s"
+        yield from accepted(instance, what, _span_faults(instance, start, stop))
+    yield from _early_faults(instance)
     if instance.fmu.runs_without_python:
-        faults += _many_steps_faults(instance)
+        yield from _many_steps_faults(instance)
     for size, device in STEPS_ACCEPTED:
-        with _accepting(instance, faults, f"a step of {size:g} s"):
-            known = {n: v for n, v in device.items() if n in instance.fmu.variables}
-            instance.start(known, start_time=EARLY)
-            if not is_same(instance.value(EVENT), EARLY):
-                faults.append("last_event_time does not begin at the start time")
-            instance.step_by(size)
-            instance.step_by(size)
-            faults += status_faults(instance)
-    if instance.warned:
-        faults.append(f"{instance.warned} is answered with a warning")
-    return faults
+        yield from accepted(instance, f"a step of {size:g} s", _step_faults(instance, size, device))
 
 
-@contextmanager
-def _accepting(instance: Instance, faults: list[str], what: str) -> Iterator[None]:
-    """Make calls that must be accepted; add a fault where one is refused."""
-    try:
-        with instance.explained():
-            yield
-    except Refusal as error:
-        faults.append(f"{what} is refused: {error}")
+def _span_faults(instance: Instance, start: float, stop: float) -> Iterator[str]:
+    """Start an experiment (s), and end it before a step."""
+    instance.start({}, start_time=start, stop_time=stop)
+    instance.outputs()
+    if stop == start and not is_refused(instance.step_by, STEP):
+        yield f"a step beyond the stop time {stop:g} s is accepted"
+    instance.terminate()
+
+
+def _step_faults(instance: Instance, size: float, device: Mapping[str, float]) -> Iterator[str]:
+    """Make two steps (s) with a device."""
+    known = {n: v for n, v in device.items() if n in instance.fmu.variables}
+    instance.start(known, start_time=EARLY)
+    if not is_same(instance.value(EVENT), EARLY):
+        yield "last_event_time does not begin at the start time"
+    instance.step_by(size)
+    instance.step_by(size)
+    yield from status_faults(instance)
 
 
 def _early_faults(instance: Instance) -> Iterator[str]:

@@ -1,7 +1,6 @@
 """What is found wrong with the conduct of an FMU, and other values to try it with."""
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TypeVar
 
 from fmpy.fmi1 import FMICallException
@@ -27,9 +26,13 @@ SHARE = 0.37
 """Change of a value in units of its nominal one."""
 
 
-def other_value(name: str, value: float) -> float:
-    """Return another value that the variable can have, of the same order of magnitude."""
+def other_value(name: str, value: float | None = None) -> float:
+    """Return another value that the variable can have, of the same order of magnitude.
+
+    It differs from the start where no value is given.
+    """
     variable = VARIABLES[name]
+    value = variable.start or 0.0 if value is None else value
     if variable.kind == "Integer":
         low, high = variable.minimum or 0.0, variable.maximum or 0.0
         return low if value != low else high
@@ -58,16 +61,13 @@ def unequal(instance: Instance, values: Mapping[str, float], when: str) -> Itera
             yield f"{name} is {found!r} {when}, must be {values[name]!r}"
 
 
-@contextmanager
-def adding_refusal(instance: Instance, faults: list[str]) -> Iterator[None]:
-    """Add a failed call to the faults that were found before it; Refusal where there are none."""
+def accepted(instance: Instance, what: str, faults: Iterable[str]) -> Iterator[str]:
+    """Yield the faults that are found by calls, and one more where a call is refused."""
     try:
         with instance.explained():
-            yield
+            yield from faults
     except Refusal as error:
-        if not faults:
-            raise
-        faults.append(f"and then {error}")
+        yield f"{what} is refused: {error}"
 
 
 def is_refused(call: Callable[..., object], *arguments: object) -> bool:

@@ -21,7 +21,7 @@ from fmpy.fmi2 import (
 )
 
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
-from slider_resonator.checks.conduct.findings import answer_of, is_refused
+from slider_resonator.checks.conduct.findings import accepted, answer_of, is_refused
 from slider_resonator.checks.conduct.process import (
     crowd_faults,
     instance_leaks,
@@ -57,7 +57,7 @@ MANY = 4096
 """Number of values read in one call, far more than there are variables."""
 
 
-def host_faults(fmu: FmuSide) -> list[str]:
+def host_faults(fmu: FmuSide) -> Iterator[str]:
     """Ask for the version, try instances that must not be made, and switch logging off and on.
 
     One of FMI 3.0 is asked about its event mode, where it has one.
@@ -68,31 +68,30 @@ def host_faults(fmu: FmuSide) -> list[str]:
     if not isinstance(slave, FMU2Slave):
         if not instance.fmu.offers.hasEventMode:
             raise NotApplicable("needs FMI 2.0, whose calls are tried, or hasEventMode = true")
-        return [*event_mode_faults(instance), *process_faults(instance), *step_leaks(instance)]
-    faults = [
-        f"{name} returns {found!r}, must be {needed!r}"
-        for name, needed in ANSWERS.items()
-        if (found := (getattr(slave, name)() or b"").decode("utf-8", "replace")) != needed
-    ]
+        yield from event_mode_faults(instance)
+        yield from process_faults(instance)
+        yield from step_leaks(instance)
+        return
+    for name, needed in ANSWERS.items():
+        found = (getattr(slave, name)() or b"").decode("utf-8", "replace")
+        if found != needed:
+            yield f"{name} returns {found!r}, must be {needed!r}"
     if is_native:
-        faults += _instance_faults(instance, slave)
+        yield from _instance_faults(instance, slave)
     instance.start({})
     instance.step_by(STEP)
-    try:
-        faults += _switching_faults(instance)
-    except FMICallException as error:  # no FMU may refuse to switch logging off or on
-        faults.append(str(error))
+    yield from accepted(instance, "switching logging", _switching_faults(instance))
     if is_native:
-        faults += _other_host_faults(instance, slave)
-    faults += _number_faults(instance)
-    faults += _offer_faults(instance, slave)
-    with instance.explained():
-        instance.terminate()
+        yield from _other_host_faults(instance, slave)
+    yield from _number_faults(instance)
+    yield from _offer_faults(instance, slave)
+    instance.terminate()
     if is_native:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
-        faults += [*crowd_faults(instance), *process_faults(instance)]
-    faults += [*step_leaks(instance), *instance_leaks(instance)]
-    return [*faults, f"{instance.warned} is answered with a warning"] if instance.warned else faults
+        yield from crowd_faults(instance)
+        yield from process_faults(instance)
+    yield from step_leaks(instance)
+    yield from instance_leaks(instance)
 
 
 def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:

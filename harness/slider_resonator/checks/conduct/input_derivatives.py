@@ -1,6 +1,6 @@
 """Derivatives of inputs, set in other ways: the motion must be the same, and they must end."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
 import numpy as np
@@ -21,7 +21,7 @@ ROUNDING = 1e-9
 """Share of the peak by which positions may differ where inputs are added up differently."""
 
 
-def rate_differences(fmu: FmuSide) -> list[str]:
+def rate_differences(fmu: FmuSide) -> Iterator[str]:
     """Set derivatives before values; leave out those of inputs that are held; set one by one.
 
     An input that is set without a derivative after a step is held from then on. Derivatives that
@@ -54,20 +54,18 @@ def rate_differences(fmu: FmuSide) -> list[str]:
             instance.inputs.write_rates(rates[step])
         _through_a_state(instance)
 
-    ways: Mapping[str, Callable[[int], None]] = {
-        "with derivatives set before values": before_values,
-        "without derivatives of 0": without_zeros,
-        "with derivatives set one by one": one_by_one,
-    }
-    found: list[str] = []
-    for what, set_inputs in ways.items():
-        found += plain.differences(what, _rows(plain, set_inputs))
+    for what, set_inputs in (
+        ("with derivatives set before values", before_values),
+        ("without derivatives of 0", without_zeros),
+        ("with derivatives set one by one", one_by_one),
+    ):
+        yield from plain.differences(what, _rows(plain, set_inputs))
     place = instance.fmu.outputs.index("position")
     kept, expected = (np.array(rows)[:, place] for rows in (_rows(plain, at_corners), plain.rows))
     off = float(np.abs(kept - expected).max() / np.abs(expected).max())
     if not off <= ROUNDING:
-        found.append(f"position is off by {off:.2g} of its peak where derivatives are kept")
-    return found + _begun(instance, fmu.scene.parameters)
+        yield f"position is off by {off:.2g} of its peak where derivatives are kept"
+    yield from _begun(instance, fmu.scene.parameters)
 
 
 def _rows(plain: Replay, set_inputs: Callable[[int], None]) -> Rows:
@@ -80,10 +78,9 @@ def _rows(plain: Replay, set_inputs: Callable[[int], None]) -> Rows:
     return running.rows
 
 
-def _begun(instance: Instance, parameters: Mapping[str, float]) -> list[str]:
+def _begun(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:
     """Set derivatives before a reset, where they must end, and before initialization ends."""
     after_a_step = partial(outputs_after, instance, AWAY)
-    faults: list[str] = []
     instance.start(parameters)
     held = after_a_step()
     instance.start(parameters)
@@ -92,18 +89,17 @@ def _begun(instance: Instance, parameters: Mapping[str, float]) -> list[str]:
     instance.inputs.write_rates(RATES)
     instance.start(parameters)
     if after_a_step() != held:
-        faults.append("derivatives of inputs outlive a reset")
+        yield "derivatives of inputs outlive a reset"
     instance.initialise(parameters)
     instance.inputs.write_rates(RATES)
     instance.begin()
     if after_a_step() != growing:
-        faults.append("derivatives set before initialization ends are forgotten")
+        yield "derivatives set before initialization ends are forgotten"
     instance.start(parameters)
     instance.inputs.write_rates(RATES)
     instance.set(instance.read(TUNABLES))
     if after_a_step() != growing:
-        faults.append("derivatives of inputs are forgotten where parameters are set")
-    return faults
+        yield "derivatives of inputs are forgotten where parameters are set"
 
 
 def _through_a_state(instance: Instance) -> None:

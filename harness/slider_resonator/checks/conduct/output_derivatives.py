@@ -1,6 +1,6 @@
 """First derivatives of outputs, where an FMU offers them, against two short steps."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from math import tau
 
 from fmpy.fmi2 import (
@@ -41,19 +41,18 @@ ROUNDED = 1e-12
 
 
 def derivative_faults(
-    instance: Instance, state: SavedState, frequency: float, peaks: Mapping[str, float]
-) -> Sequence[str]:
+    instance: Instance, state: SavedState, peaks: Mapping[str, float]
+) -> Iterator[str]:
     """Compare derivatives of outputs with quotients over short steps; the state is restored.
 
-    Nothing is compared over an event. `frequency` is that of the drive, rad/s, `peaks` are those of
-    the outputs in a run.
+    Nothing is compared over an event. `peaks` are those of the outputs in a run.
     """
     offered = instance.fmu.offers.maxOutputDerivativeOrder or 0
     if not isinstance(instance.slave, FMU2Slave) or offered < 1:
-        return []
+        return
+    frequency = instance.value("drive_frequency")  # rad/s
     step = SHORT * tau / frequency
-    order = "averaging_order"
-    first_order = order not in instance.fmu.variables or instance.value(order) == 1.0
+    first_order = not instance.fmu.has_orders or instance.value("averaging_order") == 1.0
     averaged = first_order and instance.value("fidelity") == 0.0
     outputs = (*OUTPUTS, SLOW) if averaged else OUTPUTS
     held = [name for name in HELD if name not in outputs]
@@ -64,12 +63,10 @@ def derivative_faults(
         rows.append(instance.read((*outputs, *HELD)))
     state.restore()
     if any(row[name] != rows[0][name] for row in rows for name in COUNTS):
-        return []
-    faults = [
-        f"the derivative of {name} is {reported[name]!r} while it is held"
-        for name in held
-        if reported[name] and all(row[name] == rows[0][name] for row in rows)
-    ]
+        return
+    for name in held:
+        if reported[name] and all(row[name] == rows[0][name] for row in rows):
+            yield f"the derivative of {name} is {reported[name]!r} while it is held"
     for name in outputs:
         derivative = reported[name]
         first, middle, last = (row[name] for row in rows)
@@ -78,10 +75,9 @@ def derivative_faults(
         scale = 0.0 if name == SLOW else frequency * abs(last)
         size = max(abs(quotient), abs(middle - first) / step, scale, natural * peaks[name])
         if derivative is None and name in OF_STATE:
-            faults.append(f"the derivative of {name} is refused, though derivatives are offered")
+            yield f"the derivative of {name} is refused, though derivatives are offered"
         elif derivative is not None and not abs(derivative - quotient) <= ALLOWED * size:
-            faults.append(f"the derivative of {name} is {derivative!r}, it grows by {quotient!r}")
-    return faults
+            yield f"the derivative of {name} is {derivative!r}, it grows by {quotient!r}"
 
 
 def read_derivatives(instance: Instance) -> None:

@@ -2,9 +2,8 @@
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -15,12 +14,11 @@ from slider_resonator.arrays import is_same
 from slider_resonator.checks.conduct.findings import (
     SMOOTH,
     UNKNOWN,
-    adding_refusal,
     is_refused,
     other_value,
 )
 from slider_resonator.checks.conduct.output_derivatives import status_faults
-from slider_resonator.checks.conduct.replays import Replay
+from slider_resonator.checks.conduct.replays import Replay, Rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.variable import Variable
@@ -83,17 +81,23 @@ JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
 """Distances (s) from the present time at which a step cannot begin."""
 
 
-@dataclass
 class Trial:
-    """Calls that must be refused, and what was found wrong with them.
+    """Calls that must be refused, and the `faults` that were found.
 
-    `reads`: whether the FMU gives values now, which it need not before initialization mode.
+    No call may change the variables that are `watched`.
     """
 
-    instance: Instance
-    faults: list[str]
-    outputs: Sequence[str] = ()
-    reads: bool = True
+    def __init__(self, instance: Instance) -> None:
+        self.instance = instance
+        self.faults: list[str] = []
+        self.watched: Sequence[str] = ()
+        variables = instance.fmu.variables
+        self.present = [v for name, v in VARIABLES.items() if name in variables]
+        self.settable = [v for v in self.present if v.causality != "output"]
+
+    def watch(self, *outputs: str) -> None:
+        """Watch what can be set, and these outputs."""
+        self.watched = [*(v.name for v in self.settable), *outputs]
 
     def refuses(
         self,
@@ -135,11 +139,7 @@ class Trial:
             self.faults.append(f"{what} is accepted")
 
     def _values(self) -> Mapping[str, float]:
-        if not self.reads:
-            return {}
-        names = [name for name, v in VARIABLES.items() if v.causality != "output"]
-        known = [n for n in names if n in self.instance.fmu.variables]
-        return self.instance.read([*known, *self.outputs])
+        return self.instance.read(self.watched) if self.watched else {}
 
     def refuses_values(self, when: str, variables: Sequence[Variable]) -> None:
         """Set what lies outside the bounds of variables, alone and after a good value."""
@@ -161,7 +161,7 @@ class Trial:
     def _refuses_the_last(self, when: str, variables: Sequence[Variable]) -> None:
         """Set good values in one call, of which the last is bad or for no variable to be set."""
         *others, last = variables
-        good = {v: other_value(v.name, v.start or 0.0) for v in others}
+        good = {v: other_value(v.name) for v in others}
         bad = bad_values(last)[0]
         for where, both in (("after", {**good, last: bad}), ("before", {last: bad, **good})):
             what = f"{last.name} = {bad!r} {where} {len(others)} good values {when}"
@@ -178,9 +178,7 @@ class Trial:
     def refuses_all(self, when: str, variables: Iterable[Variable]) -> None:
         """Set variables, which must not be set at all, to other values."""
         for variable in variables:
-            value = 0.5
-            if variable.start is not None:
-                value = other_value(variable.name, variable.start)
+            value = 0.5 if variable.start is None else other_value(variable.name)
             what = f"{variable.name} = {value!r} {when}"
             told = [] if variable.name in SHARPER else [value]
             self.refuses(what, partial(self._set, {variable: value}), [variable.name], told)
@@ -193,10 +191,10 @@ class Trial:
                 what = f"{name.replace('fmi2', f'fmi{version[0]}')} {when}"
                 self.refuses(what, partial(_LIFECYCLE[name], self.instance))
 
-    def refuses_derivatives(self, variables: Sequence[Variable]) -> None:
+    def refuses_derivatives(self) -> None:
         """Set derivatives that are not finite, of another order or of what is no input."""
         derive = self.instance.slave.setRealInputDerivatives
-        for variable in variables:
+        for variable in self.present:
             if variable.kind != "Real":
                 continue
             name, reference = variable.name, self.instance.fmu.reference(variable.name)
@@ -218,15 +216,15 @@ class Trial:
             both = partial(derive, [load, second], [1, order], [7.0, value])
             self.refuses(f"a derivative of {what} after one of load", both)
 
-    def refuses_types(self, present: Sequence[Variable]) -> None:
+    def refuses_types(self) -> None:
         """Read and set variables, of which one is unknown, by the functions of other types."""
         slave, types = self.instance.slave, {"Real", "Integer"}
         if isinstance(slave, FMU2Slave):
             types |= {"Boolean", "String"}
         good: dict[str, Any] = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "1"}
-        references = {v.name: self.instance.fmu.reference(v.name) for v in present}
+        references = {v.name: self.instance.fmu.reference(v.name) for v in self.present}
         # A reference belongs to one variable of each type.
-        valid = {(v.kind, references[v.name]) for v in present}
+        valid = {(v.kind, references[v.name]) for v in self.present}
         last = max(variable.valueReference for variable in self.instance.fmu.variables.values())
         unknown = {"the reference after the last": last + 1, "an unknown reference": UNKNOWN}
         explained = self.instance.fmu.log_categories
@@ -255,10 +253,10 @@ class Trial:
                 except FMICallException:
                     self.faults.append(f"{what} is refused, which is within its bounds")
                     continue
-                found = self._values().get(variable.name, bound)
-                if not is_same(found, bound):
-                    self.faults.append(f"{what} is read as {found!r}")
                 if kept:
+                    found = self._values()[variable.name]
+                    if not is_same(found, bound):
+                        self.faults.append(f"{what} is read as {found!r}")
                     self._set({variable: kept[variable.name]})
 
     def refuses_step(self, what: str, time: float, size: float, names: Sequence[str] = ()) -> None:
@@ -295,52 +293,54 @@ def shows(log: str, value: float) -> bool:
 def bad_values(variable: Variable) -> list[float]:
     """Return values that are not finite, and the nearest beyond the bounds of a variable."""
     low, high = variable.minimum, variable.maximum
-    if variable.kind == "Integer":
-        assert low is not None
-        assert high is not None
-        return [low - 1.0, high + 1.0]
     below = [] if low is None else [math.nextafter(low, -math.inf), low - 1.0]
     below += [0.0] if low is not None and low > 0.0 else []
     above = [] if high is None else [math.nextafter(high, math.inf), high + 1.0]
+    if variable.kind == "Integer":
+        return [below[-1], above[-1]]
     return [*NOT_FINITE, *below, *above]
 
 
-def refusal_faults(fmu: FmuSide) -> list[str]:
+def refusal_faults(fmu: FmuSide) -> Iterator[str]:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
-    instance, plain = fmu.instance, Replay.of(fmu)
-    running = Running(instance, plain.schedule)
-    trial = Trial(instance, [])
-    present = [v for name, v in VARIABLES.items() if name in instance.fmu.variables]
-    settable = [v for v in present if v.causality != "output"]
-    with adding_refusal(instance, trial.faults):
-        _before_the_run(trial, settable)
-        instance.initialise({**plain.parameters, **running.first}, **running.span)
-        trial.reads = True
-        trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
-        trial.refuses_values("in initialisation mode", settable)
-        trial.refuses_calls("in initialisation mode")
-        instance.begin()
-        running.read()
-        trial.refuses_jumps()
-        for step in range(running.steps):
-            tried = step in (1, running.steps // 2 + 1)
-            # After derivatives of inputs are set, which a refused call must not drop.
-            trying = partial(_in_the_run, trial, present, restores=step > 1)
-            running.advance(step, trying if tried else None)
-        beyond = STEP + 1e-3 * abs(running.span["stop_time"])
-        trial.refuses_step("a step beyond the stop", instance.time, beyond)
-        instance.terminate()
-        trial.refuses_calls("after a run")
-        trial.faults += plain.differences("a run with refused calls", running.rows)
-    return trial.faults
+    plain, trial = Replay.of(fmu), Trial(fmu.instance)
+    try:
+        rows = _tried(trial, plain)
+    finally:
+        yield from trial.faults
+    yield from plain.differences("a run with refused calls", rows)
 
 
-def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
+def _tried(trial: Trial, plain: Replay) -> Rows:
+    """Return the rows of a run around and in which calls are refused."""
+    instance, running = trial.instance, Running(trial.instance, plain.schedule)
+    _before_the_run(trial)
+    instance.initialise({**plain.parameters, **running.first}, **running.span)
+    trial.watch(*SMOOTH)
+    trial.refuses_values("in initialisation mode", trial.settable)
+    trial.refuses_calls("in initialisation mode")
+    instance.begin()
+    running.read()
+    trial.refuses_jumps()
+    for step in range(running.steps):
+        tried = step in (1, running.steps // 2 + 1)
+        # After derivatives of inputs are set, which a refused call must not drop.
+        trying = partial(_in_the_run, trial, restores=step > 1)
+        running.advance(step, trying if tried else None)
+    beyond = STEP + 1e-3 * abs(running.span["stop_time"])
+    trial.refuses_step("a step beyond the stop", instance.time, beyond)
+    instance.terminate()
+    trial.refuses_calls("after a run")
+    return running.rows
+
+
+def _before_the_run(trial: Trial) -> None:
     instance = trial.instance
     instance.set_up(start_time=OTHER_TIME)
     instance.call("fmi2Reset")
     instance.time = 0.0
-    trial.reads = not is_refused(instance.value, "load")
+    if not is_refused(instance.value, "load"):  # as an FMU may do before initialization mode
+        trial.watch()
 
     def set_up(arguments: tuple[object, ...]) -> None:
         instance.call("fmi2SetupExperiment", *arguments)
@@ -354,26 +354,26 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
         if not is_same(instance.value("last_event_time"), instance.time):
             trial.faults.append("a reset or an experiment that is refused changes the start time")
         instance.call("fmi2Reset")
-    trial.refuses_values("before a run", settable)
+    trial.refuses_values("before a run", trial.settable)
     trial.refuses_calls("before a run")
-    trial.accepts_bounds("before a run", settable)
+    trial.accepts_bounds("before a run", trial.settable)
 
 
-def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> None:
+def _in_the_run(trial: Trial, *, restores: bool) -> None:
     """Try what must be refused in a run; go back to a state from before where `restores` says so.
 
     That would hide what refused calls change in a state, and must still be possible after them.
     """
-    instance = trial.instance
+    instance, present = trial.instance, trial.present
     anytime = [v for v in present if v.causality == "input" or v.variability == "tunable"]
     fixed = [v for v in present if v.causality == "parameter" and v.variability == "fixed"]
     trial.refuses_values("in a run", anytime)
-    trial.refuses_types(present)
+    trial.refuses_types()
     trial.refuses_all("in a run", fixed)
     trial.refuses_all("from outside", (v for v in present if v.causality == "output"))
     trial.refuses_calls("in a run")
     if instance.fmu.interpolates:
-        trial.refuses_derivatives(present)
+        trial.refuses_derivatives()
     restores = restores and bool(instance.fmu.offers.canGetAndSetFMUstate)
     state = SavedState.of(instance) if restores else None
     names = ["communicationStepSize"] if instance.fmu.log_categories else []

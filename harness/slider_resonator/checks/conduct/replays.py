@@ -1,7 +1,7 @@
 """The same run in other ways, each of which must give the same outputs to the last bit."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +14,7 @@ from slider_resonator.checks.conduct.output_derivatives import (
     status_faults,
 )
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
+from slider_resonator.device.interface import PARAMETERS, TUNABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance, SavedState, instantiate
@@ -62,66 +62,53 @@ class Replay:
         running.read()
         return running
 
-    def differences(self, what: str, rows: Rows, *, begin: int = 0) -> list[str]:
-        """Return where rows from the reading `begin` on are not those of the run to the last bit.
+    def differences(self, what: str, rows: Rows, *, begin: int = 0) -> Iterator[str]:
+        """Yield where rows from the reading `begin` on are not those of the run to the last bit.
 
         `what` begins each finding.
         """
         outputs, times = self.instance.fmu.outputs, self.schedule.readings()[begin:]
         expected = self.rows[begin:]
-        return [
-            f"{what}: {outputs[column]} at {times[row]:.9g} s is {rows[row][column]!r}, was "
-            f"{expected[row][column]!r}"
-            for row, column in np.argwhere(np.array(rows) != np.array(expected)).tolist()
-        ]
+        for row, column in np.argwhere(np.array(rows) != np.array(expected)).tolist():
+            yield (
+                f"{what}: {outputs[column]} at {times[row]:.9g} s is {rows[row][column]!r}, was "
+                f"{expected[row][column]!r}"
+            )
 
 
-@contextmanager
-def _another(instance: Instance) -> Iterator[Instance]:
-    """Instantiate the FMU once more; NotApplicable where a process can have it only once."""
-    instance.fmu.require("canBeInstantiatedOnlyOncePerProcess", of=False)
-    with instantiate(instance.fmu) as other:
-        yield other
-
-
-def reset_differences(fmu: FmuSide) -> list[str]:
+def reset_differences(fmu: FmuSide) -> Iterator[str]:
     """Compare a run on a new instance with one after a reset: after a run, and in its middle."""
     fmu.instance.renew()
     first = Replay.of(fmu)
-    found = first.differences("after a reset", first.again())
+    yield from first.differences("after a reset", first.again())
     running = first.started()
     running.finish(end=running.steps // 2)
     fmu.instance.terminate()
-    return found + first.differences("after a run that was terminated and reset", first.again())
+    yield from first.differences("after a run that was terminated and reset", first.again())
 
 
-def restored_differences(fmu: FmuSide) -> list[str]:
+def restored_differences(fmu: FmuSide) -> Iterator[str]:
     """Save states in a run, and go on from each after the run and a detour.
 
     From each saved state derivatives of outputs are compared with a short step, but not from the
     start of averages of first order, whose fast part sets in with the first step.
     """
-    fmu.instance.fmu.require("canGetAndSetFMUstate")
     plain, instance, device = Replay.of(fmu), fmu.instance, fmu.scene.device
-    wrong: list[str] = []
     begins_resolved = device.fidelity > 0 or device.averaging_order == 2
     largest = np.abs(np.array(plain.rows)).max(axis=0).tolist()
     peaks = dict(zip(instance.fmu.outputs, largest, strict=True))
+    running = plain.started()
+    steps = {int(share * running.steps) for share in SAVED_AT}
+    saved: list[tuple[int, int, SavedState]] = []
     with ExitStack() as states:
-        running = plain.started()
-        steps = {int(share * running.steps) for share in SAVED_AT}
-        saved: list[tuple[int, int, SavedState]] = []
-
-        def save(step: int) -> None:
+        for step in range(running.steps):
             if step in steps:
                 state = states.enter_context(SavedState.of(instance))
                 saved.append((step, len(running.rows), state))
                 if begins_resolved or step > 0:
-                    frequency = instance.value("drive_frequency")
-                    wrong.extend(derivative_faults(instance, state, frequency, peaks))
-
-        running.finish(before=save)
-        found = plain.differences("while states are saved", running.rows)
+                    yield from derivative_faults(instance, state, peaks)
+            running.advance(step)
+        yield from plain.differences("while states are saved", running.rows)
         for step, rows, state in reversed(saved):
             state.restore()
             # A detour: other inputs and tunables for a few steps.
@@ -134,21 +121,20 @@ def restored_differences(fmu: FmuSide) -> list[str]:
             running.read()
             running.finish(step)
             what = f"restored after step {step}"
-            found += plain.differences(what, running.rows, begin=rows - 1)
-    return found + wrong
+            yield from plain.differences(what, running.rows, begin=rows - 1)
 
 
-def transferred_differences(fmu: FmuSide) -> list[str]:
+def transferred_differences(fmu: FmuSide) -> Iterator[str]:
     """Go on in another instance, at first new and then used, from serialised states."""
-    fmu.instance.fmu.require("canGetAndSetFMUstate")
-    fmu.instance.fmu.require("canSerializeFMUstate")
-    plain, instance = Replay.of(fmu), fmu.instance
-    found: list[str] = []
-    with _another(instance) as other:
+    instance = fmu.instance
+    instance.fmu.require("canGetAndSetFMUstate")
+    instance.fmu.require("canSerializeFMUstate")
+    instance.fmu.require("canBeInstantiatedOnlyOncePerProcess", of=False)
+    plain = Replay.of(fmu)
+    with instantiate(instance.fmu) as other:
         running, taken = plain.started(), Running(other, plain.schedule)
         steps = {int(share * running.steps) for share in TRANSFERRED_AT}
-
-        def transfer(step: int) -> None:
+        for step in range(running.steps):
             if step in steps:
                 with SavedState.of(instance) as state:
                     state.transfer(other)
@@ -156,20 +142,20 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
                 taken.read()
                 taken.finish(step)
                 what = f"in another instance from step {step} on"
-                found.extend(plain.differences(what, taken.rows, begin=len(running.rows) - 1))
+                yield from plain.differences(what, taken.rows, begin=len(running.rows) - 1)
+            running.advance(step)
+    yield from plain.differences("while its state is taken over", running.rows)
 
-        running.finish(before=transfer)
-    return found + plain.differences("while its state is taken over", running.rows)
 
-
-def beside_differences(fmu: FmuSide) -> list[str]:
+def beside_differences(fmu: FmuSide) -> Iterator[str]:
     """Step two instances in turn, the second started later, and compare each with itself alone.
 
     The second one is the same model of another device, under other inputs.
     """
+    fmu.instance.fmu.require("canBeInstantiatedOnlyOncePerProcess", of=False)
     plain = Replay.of(fmu)
     others = {
-        name: other_value(name, plain.parameters.get(name, VARIABLES[name].start or 0.0))
+        name: other_value(name, plain.parameters.get(name))
         for name in PARAMETERS
         if name in fmu.instance.fmu.variables and name not in CHOSEN
     }
@@ -178,7 +164,7 @@ def beside_differences(fmu: FmuSide) -> list[str]:
         for name, signal in plain.schedule.signals.items()
     }
     own = replace(plain.schedule, signals=signals, tuning={})
-    with _another(fmu.instance) as other, other.explained():
+    with instantiate(fmu.instance.fmu) as other, other.explained():
         alone = Replay(other, {**plain.parameters, **others}, own)
         first = plain.started()
         late = min(1, first.steps)
@@ -188,14 +174,14 @@ def beside_differences(fmu: FmuSide) -> list[str]:
             if step + late < first.steps:
                 first.advance(step + late)
             second.advance(step)
-        found = plain.differences("beside another instance", first.rows)
+        yield from plain.differences("beside another instance", first.rows)
         for run, when in ((plain, "beside another instance"), (alone, "in the other instance")):
             kept = {n: value for n, value in run.parameters.items() if n not in TUNABLES}
-            found += unequal(run.instance, kept, when)
-        return found + alone.differences("the other instance", second.rows)
+            yield from unequal(run.instance, kept, when)
+        yield from alone.differences("the other instance", second.rows)
 
 
-def overwritten_differences(fmu: FmuSide) -> list[str]:
+def overwritten_differences(fmu: FmuSide) -> Iterator[str]:
     """Set another value before each value, at the start and in the run.
 
     Before the run outputs are read under the other values.
@@ -219,11 +205,13 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
         instance.set({name: value})
     instance.begin()
     running.read()
-    running.finish(before=lambda step: set_twice(running.values_at(step)))
-    return plain.differences("with values set again", running.rows)
+    for step in range(running.steps):
+        set_twice(running.values_at(step))
+        running.advance(step)
+    yield from plain.differences("with values set again", running.rows)
 
 
-def separate_differences(fmu: FmuSide) -> list[str]:
+def separate_differences(fmu: FmuSide) -> Iterator[str]:
     """Set what changes, and nothing else, each value by a call of its own.
 
     Initialization ends under a load that breaks a stick; that of the scene is set after it, as many
@@ -232,22 +220,20 @@ def separate_differences(fmu: FmuSide) -> list[str]:
     plain, instance = Replay.of(fmu), fmu.instance
     running = Running(instance, plain.schedule)
     present = dict(running.first)
-
-    def set_changes(step: int) -> None:
-        for name, value in reversed(running.values_at(step).items()):
-            if value != present[name]:
-                instance.set({name: value})
-                present[name] = value
-
     broken = {"load": present["load"] + BREAKING_LOAD}
     instance.start({**plain.parameters, **present, **broken}, **running.span)
     instance.set({"load": present["load"]})
     running.read()
-    running.finish(before=set_changes)
-    return plain.differences("with values set one by one", running.rows)
+    for step in range(running.steps):
+        for name, value in reversed(running.values_at(step).items()):
+            if value != present[name]:
+                instance.set({name: value})
+                present[name] = value
+        running.advance(step)
+    yield from plain.differences("with values set one by one", running.rows)
 
 
-def reading_differences(fmu: FmuSide) -> list[str]:
+def reading_differences(fmu: FmuSide) -> Iterator[str]:
     """Read all variables, one by one and backwards, and the status, between any two calls."""
     plain, instance = Replay.of(fmu), fmu.instance
     running = Running(instance, plain.schedule)
@@ -272,13 +258,12 @@ def reading_differences(fmu: FmuSide) -> list[str]:
     for step in range(running.steps):
         running.advance(step, read_all)
         read_all()
-        changed += status_faults(instance)
-    if instance.warned:
-        changed.append(f"{instance.warned} of a run is answered with a warning")
-    return plain.differences("with more readings", running.rows) + changed
+        yield from status_faults(instance)
+    yield from plain.differences("with more readings", running.rows)
+    yield from changed
 
 
-def other_device_differences(fmu: FmuSide) -> list[str]:
+def other_device_differences(fmu: FmuSide) -> Iterator[str]:
     """Compare a run with those after runs of devices that differ in one parameter each.
 
     Each of them is the first on its instance. A device that the FMU refuses is left out.
@@ -286,15 +271,13 @@ def other_device_differences(fmu: FmuSide) -> list[str]:
     instance = fmu.instance
     instance.renew()
     plain = Replay.of(fmu)
-    found: list[str] = []
     for name in PARAMETERS:
         if name not in instance.fmu.variables or name in plain.schedule.tuning:
             continue
-        value = plain.parameters.get(name, VARIABLES[name].start or 0.0)
+        other = {name: other_value(name, plain.parameters.get(name))}
         instance.renew()  # for the other device to be the first one that is prepared
         try:
-            Replay(instance, {**plain.parameters, name: other_value(name, value)}, plain.schedule)
+            Replay(instance, {**plain.parameters, **other}, plain.schedule)
         except Refusal:
             continue
-        found += plain.differences(f"after a device of another {name}", plain.again())
-    return found
+        yield from plain.differences(f"after a device of another {name}", plain.again())

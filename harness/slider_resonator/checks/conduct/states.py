@@ -10,7 +10,6 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 from slider_resonator.checks.conduct.findings import (
-    adding_refusal,
     is_refused,
     other_value,
     outputs_after,
@@ -38,25 +37,20 @@ DAMAGED = 24
 """Places in a serialised state at which a bit is turned."""
 
 
-def state_faults(fmu: FmuSide) -> list[str]:
+def state_faults(fmu: FmuSide) -> Iterator[str]:
     """Get a state into the place of another, damage serialised ones, and free them."""
     instance = fmu.instance
     instance.fmu.require("canGetAndSetFMUstate")
-    faults: list[str] = []
-    with adding_refusal(instance, faults):
-        instance.start(fmu.scene.parameters)
-        instance.step_by(STEP)
-        faults.extend(_pointer_faults(instance))
-        if instance.fmu.offers.canSerializeFMUstate:
-            faults.extend(_damage_faults(instance))
-            faults.extend(_process_faults(instance))
-        faults.extend(_later_faults(instance, fmu.scene.parameters))
-        faults.extend(state_leaks(instance))
-        faults.extend(_early_faults(instance, fmu.scene.parameters))
-        instance.terminate()
-    if instance.warned:
-        faults.append(f"{instance.warned} is answered with a warning")
-    return faults
+    instance.start(fmu.scene.parameters)
+    instance.step_by(STEP)
+    yield from _pointer_faults(instance)
+    if instance.fmu.offers.canSerializeFMUstate:
+        yield from _damage_faults(instance)
+        yield from _process_faults(instance)
+    yield from _later_faults(instance, fmu.scene.parameters)
+    yield from state_leaks(instance)
+    yield from _early_faults(instance, fmu.scene.parameters)
+    instance.terminate()
 
 
 def _pointer_faults(instance: Instance) -> Iterator[str]:

@@ -30,7 +30,7 @@ PHASE = 1.3
 """A phase (rad) that acts on the normal force at the start."""
 
 
-def start_faults(fmu: FmuSide) -> list[str]:
+def start_faults(fmu: FmuSide) -> Iterator[str]:
     """Read every parameter and input new, when set, in a run and after a reset.
 
     Outputs that are read before initialization ends are those at its end. An FMU need not give
@@ -47,37 +47,34 @@ def start_faults(fmu: FmuSide) -> list[str]:
     others = {name: other_value(name, start) for name, start in starts.items()}
     # A device of bristles and the averaged motion must start with any of these values.
     others |= {"fidelity": 2.0, "friction_law": 0.0}
-    faults: list[str] = []
-    with instance.explained():
-        faults += early(instance, starts, "at first")
-        instance.set_up()
-        for name, value in others.items():
-            instance.set({name: value})
-        faults += early(instance, others, "after it was set")
-        instance.call("fmi2EnterInitializationMode")
-        faults += unequal(instance, others, "in initialization mode")
-        # Integers first: no Real may be needed to bring them up to date.
-        types = {name: instance.fmu.variables[name].type for name in instance.fmu.outputs}
-        ordered = sorted(types, key=lambda name: (types[name], name))
-        first = {name: instance.value(name) for name in ordered}
-        instance.begin()
-        faults += unequal(instance, others, "in a run")
-        faults += unequal(instance, first, "after initialization, as it was read in it")
-        instance.step_by(1e-3)
-        faults += unequal(instance, others, "after a step")
-        changed = {name: starts[name] for name in (*INPUTS, *HELD) if name in starts}
-        instance.set(changed)
-        faults += unequal(instance, changed, "after it was set in a run")
-        instance.set_up()
-        faults += early(instance, starts, "after a reset")
-        instance.set(others)
-        instance.call("fmi2EnterInitializationMode")
-        instance.set({name: others[name] for name in INPUTS})
-        instance.call("fmi2Reset")
-        faults += early(instance, starts, "after a reset in initialization mode")
-        faults += _set_in_initialization(instance, others)
-        faults += _integer_faults(instance)
-    return faults
+    yield from early(instance, starts, "at first")
+    instance.set_up()
+    for name, value in others.items():
+        instance.set({name: value})
+    yield from early(instance, others, "after it was set")
+    instance.call("fmi2EnterInitializationMode")
+    yield from unequal(instance, others, "in initialization mode")
+    # Integers first: no Real may be needed to bring them up to date.
+    types = {name: instance.fmu.variables[name].type for name in instance.fmu.outputs}
+    ordered = sorted(types, key=lambda name: (types[name], name))
+    first = {name: instance.value(name) for name in ordered}
+    instance.begin()
+    yield from unequal(instance, others, "in a run")
+    yield from unequal(instance, first, "after initialization, as it was read in it")
+    instance.step_by(1e-3)
+    yield from unequal(instance, others, "after a step")
+    changed = {name: starts[name] for name in (*INPUTS, *HELD) if name in starts}
+    instance.set(changed)
+    yield from unequal(instance, changed, "after it was set in a run")
+    instance.set_up()
+    yield from early(instance, starts, "after a reset")
+    instance.set(others)
+    instance.call("fmi2EnterInitializationMode")
+    instance.set({name: others[name] for name in INPUTS})
+    instance.call("fmi2Reset")
+    yield from early(instance, starts, "after a reset in initialization mode")
+    yield from _set_in_initialization(instance, others)
+    yield from _integer_faults(instance)
 
 
 def _set_in_initialization(instance: Instance, others: Mapping[str, float]) -> Iterator[str]:
@@ -111,10 +108,8 @@ def _integer_faults(instance: Instance) -> Iterator[str]:
     names = [name for name in PARAMETERS if name in INTEGERS and name in instance.fmu.variables]
     for ordered, begin in product((names, names[::-1]), range(2)):
         references = [instance.fmu.reference(name) for name in ordered]
-        ends = [
-            (VARIABLES[name].minimum or 0.0, VARIABLES[name].maximum or 0.0) for name in ordered
-        ]
-        values = [int(pair[(begin + place) % 2]) for place, pair in enumerate(ends)]
+        ends = [(VARIABLES[name].minimum, VARIABLES[name].maximum) for name in ordered]
+        values = [int(pair[(begin + place) % 2] or 0) for place, pair in enumerate(ends)]
         instance.set_up()
         instance.slave.setInteger(references, values)
         instance.call("fmi2EnterInitializationMode")
@@ -144,7 +139,7 @@ SHORT = 1.37e-4
 """Steps (s) of a run after each of which an input is changed."""
 
 
-def dependency_faults(fmu: FmuSide) -> list[str]:
+def dependency_faults(fmu: FmuSide) -> Iterable[str]:
     """Change each variable at the start, and each input in a run, and see which outputs follow.
 
     An input in a run is set back after each step.
@@ -172,7 +167,7 @@ def dependency_faults(fmu: FmuSide) -> list[str]:
                     instance.set({name: other_value(name, present[name])})
                     faults += _undeclared(instance, name, before, in_run, "in a run")
                     instance.set({name: present[name]})
-    return list(dict.fromkeys(faults))
+    return dict.fromkeys(faults)
 
 
 def _declared(unknowns: Iterable[Unknown]) -> dict[str, set[str] | None]:

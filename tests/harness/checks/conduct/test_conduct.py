@@ -46,7 +46,7 @@ def test_missing_dependency(own: Instance, place: str, output: str, name: str, w
     (unknown,) = [one for one in unknowns if one.variable.name == output]
     unknown.dependencies = [one for one in unknown.dependencies if one.name != name]
     found = dependency_faults(FmuSide(own, scene_of("")))
-    assert found == [f"{name} acts on {output} {when} without being declared"]
+    assert [*found] == [f"{name} acts on {output} {when} without being declared"]
 
 
 @pytest.mark.parametrize("change", [lambda x: math.nextafter(x, 6.0), lambda _: math.nan])
@@ -57,7 +57,7 @@ def test_the_last_bit_and_nan_are_differences(
     before, (value, *others) = run.rows
     other = change(value)
     found = run.differences("replayed", [before, [other, *others]])
-    assert found == [f"replayed: {own.fmu.outputs[0]} at 0.001 s is {other!r}, was {value!r}"]
+    assert [*found] == [f"replayed: {own.fmu.outputs[0]} at 0.001 s is {other!r}, was {value!r}"]
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_a_false_offer_is_a_fault(own: Instance, offer: str, value: object) -> N
 def test_status_that_ends_a_run_is_a_fault(function: str, number: int, status: str) -> None:
     fmu = SimpleNamespace(variables={}, runs_without_python=True)
     instance = SimpleNamespace(messages=[], fmu=fmu, read=lambda names: {})
-    trial = Trial(cast(Instance, instance), [])
+    trial = Trial(cast(Instance, instance))
 
     def refused() -> None:
         raise FMICallException(function=function, status=number)
