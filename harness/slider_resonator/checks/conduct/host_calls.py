@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator
 from contextlib import suppress
 from ctypes import byref, c_char_p, c_double, c_int, c_uint
-from pathlib import Path
 from typing import Any
 
 from fmpy.fmi1 import FMICallException
@@ -33,28 +32,13 @@ from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.instance import Instance
 
-ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
-"""Functions without an instance, and what FMI 2.0 demands of them."""
-
-BESIDE = "an instance beside another one"
-"""The name of another instance."""
-
 STATUSES = [f"logStatus{name}" for name in ("OK", "Warning", "Discard", "Error", "Fatal")]
 """Log categories, each for messages of a status."""
 WARNINGS, EVERYTHING = "logStatusWarning", "logAll"
 """Log categories: one to which no refusal belongs, and that of all messages."""
 
-CATEGORY, FORMAT = "logs of ", "%d"
-"""An unknown log category; its end acts as a format where percent signs are not doubled."""
-
-OTHER_HOST = 7
-"""The componentEnvironment of another host; an FMU must only hand it back."""
-
 STEP = 1.1e-3
 """Size of a step (s), after which no output is 0."""
-
-MANY = 4096
-"""Number of values read in one call, far more than there are variables."""
 
 
 def host_faults(fmu: FmuSide) -> Iterator[str]:
@@ -72,7 +56,7 @@ def host_faults(fmu: FmuSide) -> Iterator[str]:
         yield from process_faults(instance)
         yield from step_leaks(instance)
         return
-    for name, needed in ANSWERS.items():
+    for name, needed in (("fmi2GetVersion", "2.0"), ("fmi2GetTypesPlatform", "default")):
         found = (getattr(slave, name)() or b"").decode("utf-8", "replace")
         if found != needed:
             yield f"{name} returns {found!r}, must be {needed!r}"
@@ -100,7 +84,7 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     An FMU with log categories must say why it refuses them; FMI 2.0 does not ask that of others.
     All that are made are freed in initialization mode.
     """
-    folder, guid = _resources(instance), instance.fmu.description.guid
+    folder, guid = (instance.fmu.folder / "resources").as_uri(), instance.fmu.description.guid
 
     def made(name: str = "other", **arguments: Any) -> tuple[bool, list[str]]:
         """Make an instance and free it; return whether there was one, and the log."""
@@ -141,10 +125,6 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
             yield f"an instance with {argument} is not made"
 
 
-def _resources(instance: Instance) -> str:
-    return Path(instance.fmu.folder, "resources").as_uri()
-
-
 def _instantiated(
     instance: Instance,
     callbacks: fmi2CallbackFunctions,
@@ -157,10 +137,11 @@ def _instantiated(
     logs: bool = True,
 ) -> Any:
     """Make another instance, with the GUID and the resources of the FMU where none are given."""
-    texts = token or instance.fmu.description.guid, location or _resources(instance)
-    token_, location_ = (text.encode() for text in texts)
-    arguments = name.encode(), kind, token_, location_, byref(callbacks), visible, logs
-    return instance.slave.dll.fmi2Instantiate(*arguments)
+    token = token or instance.fmu.description.guid
+    location = location or (instance.fmu.folder / "resources").as_uri()
+    return instance.slave.dll.fmi2Instantiate(
+        *(name.encode(), kind, token.encode(), location.encode(), byref(callbacks), visible, logs)
+    )
 
 
 def _switching_faults(instance: Instance) -> Iterator[str]:
@@ -179,12 +160,12 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
         yield "a refusal is not logged though all messages were asked for"
     if not _refusal_is_logged(instance):
         yield "a refusal is not logged after logging is switched on"
-    # A category whose name looks like a format, which a logger must get as a text.
+    # An unknown category whose name looks like a format, which a logger must get as a text.
     del instance.messages[:]
-    is_refused(instance.slave.setDebugLogging, True, [CATEGORY + FORMAT])
+    is_refused(instance.slave.setDebugLogging, True, ["logs of %d"])
     for message in instance.messages:
-        if CATEGORY in message and CATEGORY + FORMAT not in message:
-            yield f"a message takes {FORMAT} for a format: {message}"
+        if "logs of " in message and "logs of %d" not in message:
+            yield f"a message takes %d for a format: {message}"
 
 
 def _refusal_is_logged(instance: Instance, *categories: str) -> bool:
@@ -202,17 +183,18 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     """Create an instance for another host, to which alone its refusals may be reported."""
     if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
+    name, host = "an instance beside another one", 7
     declared = instance.fmu.log_categories
     environments: list[int | None] = []
     wrong: list[str] = []
 
     def listen(
-        environment: int | None, name: bytes, status: int, category: bytes, *_: object
+        environment: int | None, given: bytes, status: int, category: bytes, *_: object
     ) -> None:
         environments.append(environment)
         called = (category or b"").decode("utf-8", "replace")
         due = dict(enumerate(STATUSES)).get(status)
-        if name != BESIDE.encode():
+        if given != name.encode():
             wrong.append("with the name of another instance")
         if status <= fmi2Warning:
             wrong.append("as a success")
@@ -221,10 +203,10 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         if EVERYTHING in declared and called not in declared:
             wrong.append("in a category that is not declared")
 
-    messages, callbacks = fmu_log.collect(BESIDE)
+    messages, callbacks = fmu_log.collect(name)
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
-    callbacks.componentEnvironment = OTHER_HOST
-    made, again = (_instantiated(instance, callbacks, BESIDE, logs=False) for _ in range(2))
+    callbacks.componentEnvironment = host  # an FMU must only hand it back
+    made, again = (_instantiated(instance, callbacks, name, logs=False) for _ in range(2))
     if not (made and again):
         yield "an instance beside another, or a further one of the same name, is not made"
         return
@@ -238,8 +220,8 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         yield "good calls are logged without debug logging"
     slave.dll.fmi2DoStep(made, STEP, -1.0, True)
     slave.dll.fmi2FreeInstance(made)
-    fmu_log.forget(BESIDE)
-    if messages or instance.messages or set(environments) - {OTHER_HOST}:
+    fmu_log.forget(name)
+    if messages or instance.messages or set(environments) - {host}:
         yield "an instance beside another reports to the host of that one"
     yield from (f"a refusal is logged {how}" for how in dict.fromkeys(wrong))
 
@@ -248,9 +230,8 @@ def _number_faults(instance: Instance) -> Iterator[str]:
     """Read nothing, one variable twice, and so often that it may be refused, but must not crash."""
     if is_refused(instance.call, "fmi2GetReal", None, 0, None):
         yield "a call for no values at all is refused"
-    reference = instance.fmu.reference("normal_force")
-    expected, found = instance.value("normal_force"), (c_double * MANY)()
-    load = instance.fmu.reference("load")
+    reference, load = map(instance.fmu.reference, ("normal_force", "load"))
+    expected = instance.value("normal_force")
     twice = list(instance.slave.getReal([reference, load, reference]))
     if instance.fmu.runs_without_python and not is_refused(
         instance.call, "fmi2GetReal", byref(c_uint(reference)), 1, None
@@ -258,11 +239,12 @@ def _number_faults(instance: Instance) -> Iterator[str]:
         yield "a null pointer is accepted as the place of a value"
     if twice != [expected, instance.value("load"), expected]:
         yield "normal_force read twice in a call is not the same"
+    many = 4096  # far more than there are variables
+    references, found = (c_uint * many)(*[reference] * many), (c_double * many)()
     with suppress(FMICallException):
-        references = (c_uint * MANY)(*[reference] * MANY)
-        instance.call("fmi2GetReal", references, MANY, found)
+        instance.call("fmi2GetReal", references, many, found)
         if set(found) != {expected}:
-            yield f"normal_force read {MANY} times in a call is not {expected!r} each time"
+            yield f"normal_force read {many} times in a call is not {expected!r} each time"
 
 
 def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:

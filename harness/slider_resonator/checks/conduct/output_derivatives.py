@@ -14,13 +14,10 @@ from fmpy.fmi2 import (
 from slider_resonator.checks.conduct.findings import answer_of
 from slider_resonator.fmu.instance import Instance, SavedState
 
-OUTPUTS = (
-    *("position", "velocity", "resonator_displacement", "resonator_velocity"),
-    *("normal_force", "friction_force"),
-)
-"""Outputs that are smooth between events."""
 OF_STATE = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 """Outputs of which an FMU that offers derivatives must have one."""
+OUTPUTS = (*OF_STATE, "normal_force", "friction_force")
+"""Outputs that are smooth between events."""
 SLOW = "mean_velocity"
 """An output that is smooth, and slow, where motion is averaged to first order."""
 COUNTS = ("reversals", "last_event_time")
@@ -36,8 +33,6 @@ differ by: far more than the third derivative adds over the steps."""
 SMALL = 1e-3
 """Share of the peak of an output, over a radian of the drive, in whose units its derivative may be
 off by `ALLOWED`: what rounding leaves of an output next to zero is far less."""
-ROUNDED = 1e-12
-"""Share of a slow output, over a step, in whose units its derivative may be off by `ALLOWED`."""
 
 
 def derivative_faults(
@@ -71,9 +66,10 @@ def derivative_faults(
         derivative = reported[name]
         first, middle, last = (row[name] for row in rows)
         quotient = (4.0 * (middle - first) - (last - first)) / (2.0 * step)
-        natural = ROUNDED / step if name == SLOW else SMALL * frequency
-        scale = 0.0 if name == SLOW else frequency * abs(last)
-        size = max(abs(quotient), abs(middle - first) / step, scale, natural * peaks[name])
+        # A slow output is rounded over a step; the scale of others is a radian of the drive.
+        scale, natural = (0.0, 1e-12 / step) if name == SLOW else (frequency, SMALL * frequency)
+        scales = scale * abs(last), natural * peaks[name]
+        size = max(abs(quotient), abs(middle - first) / step, *scales)
         if derivative is None and name in OF_STATE:
             yield f"the derivative of {name} is refused, though derivatives are offered"
         elif derivative is not None and not abs(derivative - quotient) <= ALLOWED * size:
@@ -95,10 +91,6 @@ def _derivative(instance: Instance, name: str) -> float | None:
     return float(found[0]) if found else None
 
 
-RESOLUTION = 1e-9
-"""Share of the time (s) up to which two times are the same."""
-
-
 def status_faults(instance: Instance, *, refused: bool = False) -> Iterator[str]:
     """Yield what is wrong with the answers to status calls after a good step, or a `refused` one.
 
@@ -108,12 +100,9 @@ def status_faults(instance: Instance, *, refused: bool = False) -> Iterator[str]
     if not isinstance(slave, FMU2Slave):
         return
     reached = answer_of(slave.getRealStatus, fmi2LastSuccessfulTime)
-    allowed = RESOLUTION * max(1.0, abs(instance.time))
-    if reached is not None and not abs(reached - instance.time) <= allowed:
-        yield (
-            f"the last successful time is {reached!r} s after {after} step, must be "
-            f"{instance.time!r} s"
-        )
+    now = instance.time
+    if reached is not None and not abs(reached - now) <= 1e-9 * max(1.0, abs(now)):
+        yield f"the last successful time is {reached!r} s after {after} step, must be {now!r} s"
     if answer_of(slave.getBooleanStatus, fmi2Terminated):
         yield f"the FMU wants to end the run after {after} step"
     status = answer_of(slave.getStatus, fmi2DoStepStatus)

@@ -34,7 +34,6 @@ from slider_resonator.checks.conduct.findings import (
     values_to_vary,
 )
 from slider_resonator.checks.conduct.replays import Replay
-from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
@@ -44,10 +43,6 @@ from slider_resonator.fmu.opening import open_fmu
 
 STEPS, STEP = 20, 1.1e-3
 """Steps (s) of a run."""
-LIFTED = {"normal_amplitude": 1.8, "load": 0.02}
-"""A device that sticks, slides and flies."""
-SHOWN = 80
-"""Bytes that are shown of what an FMU prints."""
 
 
 def process_faults(instance: Instance) -> list[str]:
@@ -93,27 +88,24 @@ def _traces(_: None, path: Path) -> list[str]:
             flush(None)
             at_first = os.fstat(errors.fileno()).st_size
             with instance.explained():
-                for attempt in range(2):
-                    instance.start({**LIFTED, "phase": float(attempt)})
+                for phase in (0.0, 1.0):  # of a device that sticks, slides and flies
+                    instance.start({"normal_amplitude": 1.8, "load": 0.02, "phase": phase})
                     _use(instance)
                 instance.terminate()
             flush(None)
         if isinstance(instance.slave, FMU2Slave):
             ctypes.CDLL(instance.slave.dll._name)  # fmpy loads it in another folder
         after = _shared(fmu.folder)
-        texts = (os.pread(output.fileno(), SHOWN, 0), os.pread(errors.fileno(), SHOWN, at_first))
+        texts = (os.pread(output.fileno(), 80, 0), os.pread(errors.fileno(), 80, at_first))
     found = [
-        f"an instance and its run change {what}: {sorted(value ^ after[what])}"
-        if isinstance(value, set)
-        else f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
-        for what, value in before.items()
-        if after[what] != value
+        f"print {text.decode('utf-8', 'replace')!r} where the host prints" for text in texts if text
     ]
-    return found + [
-        f"an instance and its run print {text.decode('utf-8', 'replace')!r} where the host prints"
-        for text in texts
-        if text
-    ]
+    for what, value in before.items():
+        if after[what] != value:
+            sets = isinstance(value, set)
+            how = sorted(value ^ after[what]) if sets else f"{value!r} becomes {after[what]!r}"
+            found.append(f"change {what}: {how}")
+    return [f"an instance and its run {one}" for one in found]
 
 
 def _use(instance: Instance) -> None:
@@ -150,14 +142,12 @@ def _shared(folder: Path) -> dict[str, Any]:
     }
     with suppress(OSError):
         shared["the number of open files"] = len(os.listdir("/proc/self/fd"))
-        status = dict(
-            line.split(":\t", 1) for line in Path("/proc/self/status").read_text().splitlines()
-        )
+        lines = Path("/proc/self/status").read_text().splitlines()
+        status = dict(line.split(":\t", 1) for line in lines)
         for key, what in (("SigIgn", "ignored"), ("SigCgt", "caught"), ("SigBlk", "blocked")):
             bits = int(status[key], 16)
-            shared[f"the signals that are {what}"] = {
-                one.name for one in signal.Signals if bits >> (one - 1) & 1
-            }
+            names = {one.name for one in signal.Signals if bits >> (one - 1) & 1}
+            shared[f"the signals that are {what}"] = names
         shared["the number of threads"] = int(status["Threads"])
         shared["the mask of new files"] = status["Umask"].strip()
         shared["the processors it may use"] = os.sched_getaffinity(0)
@@ -167,8 +157,6 @@ def _shared(folder: Path) -> dict[str, Any]:
 CYCLES, MANY = 16, 500
 """How often something is made and freed before memory is counted, and until it is counted again: a
 sweep makes ten thousands of instances, a search by trial and return millions of states."""
-RESETS = 5
-"""How often each instance is started."""
 PATIENCE = 2.0
 """Seconds after which a slow FMU has made enough of them."""
 OF_INSTANCE, OF_STATE, OF_STEP, OF_REFUSAL = 512.0, 64.0, 8.0, 64.0
@@ -197,7 +185,7 @@ def instance_leaks(instance: Instance) -> Iterator[str]:
     def use() -> None:
         beside = nullcontext(instance) if once else instantiate(instance.fmu)
         with beside as used, used.explained():
-            for _ in range(RESETS):
+            for _ in range(5):
                 used.start({})
                 used.step_by(STEP)
                 is_refused(used.call, "fmi2DoStep", used.time, -STEP, True)
@@ -278,8 +266,6 @@ def _in_use() -> tuple[int, int]:
 
 INSTANCES = 4
 """How many instances there are at a time, beside that of the scene."""
-COURSE = 200, 7e-4
-"""Number and size (s) of the steps of each."""
 STACK = 1 << 20
 """Bytes of the stack of a thread, as on Windows."""
 
@@ -293,14 +279,12 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
     """
     if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
-    steps, size = COURSE
-    courses = [
-        schedule(steps * size, (size,), {}, False, load=constant(0.01 * number))
-        for number in range(INSTANCES)
-    ]
+    steps, size = 200, 7e-4
+    loads = [constant(0.01 * number) for number in range(INSTANCES)]
+    courses = [schedule(steps * size, size, load=load) for load in loads]
     first, *alone = (Replay(instance, {}, course) for course in (courses[0], *courses))
     names = values_to_vary(instance)
-    instance.start({name: other_value(name, VARIABLES[name].start or 0.0) for name in names})
+    instance.start({name: other_value(name) for name in names})
     with ExitStack() as stack:
         try:
             others = [stack.enter_context(instantiate(instance.fmu)) for _ in courses]

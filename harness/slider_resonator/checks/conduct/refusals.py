@@ -50,8 +50,6 @@ OUT_OF_ORDER: Mapping[str, tuple[str, ...]] = {
     "after a run": tuple(name for name in _LIFECYCLE if name != "reading position"),
 }
 """Calls that must be refused, by the state of the instance."""
-ONLY_FMI_2 = ("fmi2SetupExperiment",)
-"""Calls that FMI 3.0 does not have: its experiments begin with initialisation mode."""
 
 EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
     **{f"a start time of {bad}": (False, 0.0, bad, False, 0.0) for bad in (math.nan, math.inf)},
@@ -61,22 +59,11 @@ EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
 """Experiments, as arguments of fmi2SetupExperiment, that must be refused."""
 
 NOT_FINITE = (math.nan, math.inf, -math.inf)
-STEP_SIZES = (0.0, -0.0, -1e-3, *NOT_FINITE)
-OTHER_TIME = 5.0
-"""The start time (s) of an experiment before."""
-LARGE = 1e7
-"""A value over the nominal one that a variable without a maximum can have."""
-DERIVATIVE_ORDERS = (0, 2, -1)
-"""Orders of derivatives of inputs that must be refused."""
 ENDING = {fmi2Discard: "Discard", fmi2Fatal: "Fatal"}
 """Statuses of a refusal that end more than a call; the same numbers in each version of FMI."""
 _NUMBER = re.compile(r"[-+]?(?:\bnan\b|\binf\b|\d+\.?\d*(?:e[-+]?\d+)?)", re.IGNORECASE)
 SHARPER = ("tolerance",)
 """Variables that an FMU may make smaller for itself, so that a message has another value."""
-BEYOND = 1e3
-"""Size of a step over the time: so large that parts of it are beyond the stop, too."""
-SHOWN_TO = 1e-5
-"""Relative error of a value in a message."""
 JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
 """Distances (s) from the present time at which a step cannot begin."""
 
@@ -118,8 +105,7 @@ class Trial:
             attempt()
         except FMICallException as error:
             if error.status in ending:
-                version = str(error.function)[: len("fmi2")]
-                status = f"{version}{ENDING[error.status]}"
+                status = f"{str(error.function)[: len('fmi2')]}{ENDING[error.status]}"
                 self.faults.append(f"{what} gives {status}, at which hosts end a run")
             log = " ".join(self.instance.messages)
             if "\ufffd" in log:
@@ -141,17 +127,21 @@ class Trial:
     def _values(self) -> Mapping[str, float]:
         return self.instance.read(self.watched) if self.watched else {}
 
+    def _refuses_value(
+        self, when: str, variable: Variable, value: float, told: Sequence[float] = ()
+    ) -> None:
+        """Set a variable; the log must have its name, and the value with what else is told."""
+        what = f"{variable.name} = {value!r} {when}"
+        values = [] if variable.name in SHARPER else [value, *told]
+        self.refuses(what, partial(self._set, {variable: value}), [variable.name], values)
+
     def refuses_values(self, when: str, variables: Sequence[Variable]) -> None:
         """Set what lies outside the bounds of variables, alone and after a good value."""
         for variable in variables:
             bounds = [b for b in (variable.minimum, variable.maximum) if b is not None]
             for bad in bad_values(variable):
-                nearest = min(bounds, key=lambda bound: abs(bound - bad), default=bad)
-                told = [bad, *([nearest] if math.isfinite(bad) else [])]
-                if variable.name in SHARPER:
-                    told = []
-                what = f"{variable.name} = {bad!r} {when}"
-                self.refuses(what, partial(self._set, {variable: bad}), [variable.name], told)
+                nearest = sorted(bounds, key=lambda bound: abs(bound - bad))[:1]
+                self._refuses_value(when, variable, bad, nearest if math.isfinite(bad) else ())
         for kind in ("Real", "Integer"):
             alike = [v for v in variables if v.kind == kind]
             for some in (alike[:2], alike):
@@ -179,15 +169,14 @@ class Trial:
         """Set variables, which must not be set at all, to other values."""
         for variable in variables:
             value = 0.5 if variable.start is None else other_value(variable.name)
-            what = f"{variable.name} = {value!r} {when}"
-            told = [] if variable.name in SHARPER else [value]
-            self.refuses(what, partial(self._set, {variable: value}), [variable.name], told)
+            self._refuses_value(when, variable, value)
 
     def refuses_calls(self, when: str) -> None:
         """Make the calls that are out of order."""
         version = self.instance.fmu.version
         for name in OUT_OF_ORDER[when]:
-            if version == "2.0" or name not in ONLY_FMI_2:
+            # Experiments of FMI 3.0 begin with initialisation mode, without a call before.
+            if version == "2.0" or name != "fmi2SetupExperiment":
                 what = f"{name.replace('fmi2', f'fmi{version[0]}')} {when}"
                 self.refuses(what, partial(_LIFECYCLE[name], self.instance))
 
@@ -203,7 +192,7 @@ class Trial:
                 self.refuses(f"a derivative of {name}", one, [name])
                 continue
             wrong = [(f"= {bad!r}", 1, bad, bad) for bad in NOT_FINITE]
-            wrong += [(f"of order {order}", order, 0.1, order) for order in DERIVATIVE_ORDERS]
+            wrong += [(f"of order {order}", order, 0.1, order) for order in (0, 2, -1)]
             for what, order, value, told in wrong:
                 one = partial(derive, [reference], [order], [value])
                 self.refuses(f"a derivative of {name} {what}", one, [name], [told])
@@ -243,7 +232,7 @@ class Trial:
         """Set variables to their bounds, or far without one, and back; they can have these."""
         kept = self._values()
         for variable in variables:
-            far = LARGE * (variable.nominal or 1.0)
+            far = 1e7 * (variable.nominal or 1.0)
             for bound in (variable.minimum, far if variable.maximum is None else variable.maximum):
                 if bound is None:
                     continue
@@ -287,7 +276,7 @@ def shows(log: str, value: float) -> bool:
     numbers = [float(text) for text in _NUMBER.findall(log)]
     if math.isnan(value):
         return any(map(math.isnan, numbers))
-    return any(math.isclose(n, value, rel_tol=SHOWN_TO, abs_tol=1e-300) for n in numbers)
+    return any(math.isclose(n, value, rel_tol=1e-5, abs_tol=1e-300) for n in numbers)
 
 
 def bad_values(variable: Variable) -> list[float]:
@@ -336,7 +325,7 @@ def _tried(trial: Trial, plain: Replay) -> Rows:
 
 def _before_the_run(trial: Trial) -> None:
     instance = trial.instance
-    instance.set_up(start_time=OTHER_TIME)
+    instance.set_up(start_time=5.0)
     instance.call("fmi2Reset")
     instance.time = 0.0
     if not is_refused(instance.value, "load"):  # as an FMU may do before initialization mode
@@ -377,9 +366,9 @@ def _in_the_run(trial: Trial, *, restores: bool) -> None:
     restores = restores and bool(instance.fmu.offers.canGetAndSetFMUstate)
     state = SavedState.of(instance) if restores else None
     names = ["communicationStepSize"] if instance.fmu.log_categories else []
-    for size in STEP_SIZES:
+    for size in (0.0, -0.0, -1e-3, *NOT_FINITE):
         trial.refuses_step(f"a step of {size!r} s", instance.time, size, names)
-    beyond = BEYOND * (instance.time + STEP)
+    beyond = 1e3 * (instance.time + STEP)  # parts of it are beyond the stop, too
     trial.refuses_step("a step far beyond the stop", instance.time, beyond)
     trial.refuses_jumps()
     trial.faults += status_faults(instance, refused=True)

@@ -44,7 +44,7 @@ def start_faults(fmu: FmuSide) -> Iterator[str]:
         for name, variable in VARIABLES.items()
         if variable.start is not None and name in instance.fmu.variables
     }
-    others = {name: other_value(name, start) for name, start in starts.items()}
+    others = {name: other_value(name) for name in starts}
     # A device of bristles and the averaged motion must start with any of these values.
     others |= {"fidelity": 2.0, "friction_law": 0.0}
     yield from early(instance, starts, "at first")
