@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.checks import measures
 from slider_resonator.checks.conduct import (
     devices,
     experiments,
@@ -18,13 +19,6 @@ from slider_resonator.checks.conduct import (
     variables,
 )
 from slider_resonator.checks.fmu_side import PREDICTIONS, FmuSide
-from slider_resonator.checks.measures import (
-    NoOscillation,
-    dominant_frequency,
-    last_step_velocity,
-    ripple_amplitude,
-    slow_displacement,
-)
 from slider_resonator.checks.natural_scale import largest_fast_velocity
 from slider_resonator.errors import NotApplicable, Refusal, SceneError
 from slider_resonator.fmu.interface_check import archive_faults, description_faults
@@ -82,7 +76,7 @@ def measure(quantity: str, fmu: FmuSide) -> Measurement:
             value = MEASURES[quantity](fmu) if quantity in MEASURES else _output(quantity, fmu)
     except NotApplicable as error:
         return Measurement(None, str(error), applicable=False)
-    except (NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:
+    except (measures.NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:
         return Measurement(None, f"{quantity} does not exist: {error}")
     except (ValueError, RuntimeError) as error:
         where = f"{fmu.scene.source}: {quantity}"
@@ -129,7 +123,7 @@ def _output(quantity: str, fmu: FmuSide) -> Any:
 
 def _frequency_in_later_half(fmu: FmuSide, signal: str) -> float:
     half = len(fmu.record.times) // 2
-    return dominant_frequency(fmu.record.times[half:], fmu.record[signal][half:])
+    return measures.dominant_frequency(fmu.record.times[half:], fmu.record[signal][half:])
 
 
 MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
@@ -141,15 +135,17 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "blocking_periods": lambda fmu: fmu.blocking.periods,
     "predicted_velocity": lambda fmu: fmu.steady.predicted,
     "predicted_blocking_force": lambda fmu: fmu.blocking.predicted,
-    "slow_displacement": lambda fmu: slow_displacement(
+    "slow_displacement": lambda fmu: measures.slow_displacement(
         fmu.record.times, fmu.record["position"], fmu.scene.drive_period
     ),
-    "last_step_velocity": lambda fmu: last_step_velocity(fmu.record.times, fmu.record["position"]),
+    "last_step_velocity": lambda fmu: measures.last_step_velocity(
+        fmu.record.times, fmu.record["position"]
+    ),
     "error_over_estimate": error_over_estimate,
     "event_times": lambda fmu: (
         (fmu.record["last_event_time"] - fmu.scene.start_time) / fmu.scene.drive_period
     ),
-    "ripple_amplitude": lambda fmu: ripple_amplitude(
+    "ripple_amplitude": lambda fmu: measures.ripple_amplitude(
         fmu.record.times, fmu.record["position"], fmu.scene.drive_period
     ),
     "ripple_frequency": lambda fmu: _frequency_in_later_half(fmu, "velocity"),

@@ -117,7 +117,9 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     """
     name = re.sub(r"[^\w-]", "_", entry.get("name", "")) or "experiment"
     where = f"{file.name}: experiment {name}"
-    run = {**entry.attrib, **getattr(entry.find("TransientSimulation"), "attrib", {})}
+    transient = getattr(entry.find("TransientSimulation"), "attrib", {})
+    run = {"startTime": "0", **entry.attrib, **transient}
+    times = {"stop_time": "stopTime", "step_size": "stepSize", "start_time": "startTime"}
     sources = {
         kind: _source(named, file.parent, root)
         for kind in ("Parameters", "Stimuli", "References")
@@ -138,9 +140,7 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
             "device": _parameters(sources["Parameters"]) if "Parameters" in sources else {},
             "inputs": inputs,
             "run": {
-                "stop_time": finite_number(f"{where}: stopTime", run.get("stopTime")),
-                "step_size": finite_number(f"{where}: stepSize", run.get("stepSize")),
-                "start_time": finite_number(f"{where}: startTime", run.get("startTime", "0")),
+                key: finite_number(f"{where}: {name}", run.get(name)) for key, name in times.items()
             },
         },
         where,

@@ -1,6 +1,6 @@
 """The references in a scene: trajectories, averaged motion, steady motion, each computed once."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi, tau
@@ -15,16 +15,14 @@ from slider_resonator.checks.period_means import COINCIDENCE, last_events, quadr
 from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.schedule import nearest
+from slider_resonator.references.averaged import device_average
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
-from slider_resonator.references.averaged.device_average import (
-    blocking_force,
-    prediction_valid,
-    steady_velocity,
-)
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.vocabulary import RESOLVED
 from slider_resonator.steady.reference_steady import ReferenceMotion
 
 
@@ -66,18 +64,19 @@ class SteadyReferences:
     @property
     def predicted_velocity(self) -> float:
         """Steady velocity of averaged motion: any ratio, both laws, with lift-off."""
-        return steady_velocity(self.device, self.phase, self.load, self.frequency_ratio)
+        inputs = (self.phase, self.load, self.frequency_ratio)
+        return device_average.steady_velocity(self.device, *inputs)
 
     @property
     def predicted_blocking_force(self) -> float:
         """Blocking force of averaged motion, as for `predicted_velocity`."""
-        return blocking_force(self.device, self.phase, self.frequency_ratio)
+        return device_average.blocking_force(self.device, self.phase, self.frequency_ratio)
 
     @property
     def prediction_valid(self) -> float:
         """1 where averaged theory applies, 0 where not."""
         inputs = (self.phase, self.load, self.frequency_ratio)
-        return 1.0 if prediction_valid(self.device, *inputs) else 0.0
+        return float(device_average.prediction_valid(self.device, *inputs))
 
     @property
     def of_paper(self) -> "SteadyReferences":
@@ -112,9 +111,6 @@ class SteadyReferences:
         return abs(ratio - round(ratio)) * self.device.drive_frequency / (2.0 * pi)
 
 
-_FRICTION_LAWS: Mapping[str, int] = {"located_events": 0, "bristle_state": 1}
-"""The friction law of each resolved reference."""
-
 TUBE_POINTS = 3
 """Points on each side of a time at which a tube samples the reference."""
 
@@ -132,7 +128,7 @@ class ReferenceSide:
 
         Raises ValueError where the scene has the other friction law.
         """
-        law, own = _FRICTION_LAWS[reference], self.device.friction_law
+        law, own = RESOLVED.index(reference), self.device.friction_law
         if own != law:
             raise ValueError(f"friction_law = {own!r}: {reference} is for {law}")
         return self
@@ -277,7 +273,5 @@ class ReferenceSide:
 
 def _near(times: Array, instants: Array, margin: float) -> NDArray[np.bool_]:
     """Return for each time (s), shape (n,), whether one of the instants (s) is within a margin."""
-    edges = np.concatenate([[-np.inf], np.sort(instants), [np.inf]])
-    after = np.searchsorted(edges, times)
-    distance = np.minimum(edges[after] - times, times - edges[after - 1])
-    return np.asarray(distance <= margin, dtype=np.bool_)
+    instants = np.append(np.sort(instants), np.inf)
+    return np.abs(instants[nearest(instants, times)] - times) <= margin

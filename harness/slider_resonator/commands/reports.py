@@ -14,7 +14,7 @@ from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.commands.options import Parsed, target
 from slider_resonator.output.console import output, print_text
-from slider_resonator.output.files import distinct, writable
+from slider_resonator.output.files import distinct, writable, write_text
 from slider_resonator.output.readable import indented
 
 PRINTED = Path("-")
@@ -57,7 +57,7 @@ class Reports:
     def write(self, validations: Sequence[Validation], error: str = "") -> None:
         """Write all requested reports; HarnessError when one cannot be written."""
         if self.json is not None and not self.prints_json:
-            for_ci.write_json(self.json, validations, error)
+            write_text(self.json, for_ci.validations_as_json(validations, error) + "\n")
         if self.junit is not None:
             for_ci.write_junit(self.junit, validations, error, title=self.title)
         if self.html is not None:

@@ -180,11 +180,7 @@ class Running:
             self.instance.step_to(target)
         self.read()
 
-    def finish(
-        self, begin: int = 0, end: int | None = None, before: Callable[[int], object] | None = None
-    ) -> None:
-        """Advance from a step on to another or to the end, with a call before each step."""
+    def finish(self, begin: int = 0, end: int | None = None) -> None:
+        """Advance from a step on to another or to the end."""
         for step in range(begin, self.steps if end is None else end):
-            if before is not None:
-                before(step)
             self.advance(step)

@@ -54,8 +54,7 @@ def process_faults(instance: Instance) -> list[str]:
         return []
     try:
         with IsolatedFmu(None, TIME_LIMIT) as process:
-            found: list[str] = process.run(partial(_traces, path=instance.fmu.file))
-            return found
+            return [*process.run(partial(_traces, path=instance.fmu.file))]
     except FmuDied as error:
         return [f"an instance and its run in a new process: {error}"]
     except (FmuError, OSError):  # there may be one instance, or no other process

@@ -9,7 +9,7 @@ from slider_resonator.checks.validate import RunFailure, Validation, provenance_
 from slider_resonator.checks.verdict import TITLE, measure_of, place, sentence, title
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import Provenance, provenance_markdown, provenance_properties
-from slider_resonator.output.files import replacing, write_text
+from slider_resonator.output.files import replacing
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
@@ -28,11 +28,6 @@ def validations_as_json(validations: Sequence[Validation], error: str = "") -> s
         return to_json(plain[0], provenance)
     passed = all(validation.passed for validation in validations)
     return to_json({"passed": passed, "fmus": plain}, provenance)
-
-
-def write_json(path: Path, validations: Sequence[Validation], error: str = "") -> None:
-    """Write that document; HarnessError when the file cannot be written."""
-    write_text(path, validations_as_json(validations, error) + "\n")
 
 
 def _plain(validation: Validation) -> dict[str, object]:
@@ -58,6 +53,8 @@ def _plain(validation: Validation) -> dict[str, object]:
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML 1.0 cannot hold: an FMU may have printed them."""
+COUNTED = {"tests": "testcase", "failures": "failure", "errors": "error", "skipped": "skipped"}
+"""What JUnit counts, by the elements that it counts."""
 
 
 def write_junit(
@@ -74,25 +71,17 @@ def write_junit(
         _suite(root, validation, provenance)
     if error:
         _suite(root, Validation(title, (), 0.0, (RunFailure("", error, {}),)), provenance)
-    for name in ("tests", "failures", "errors", "skipped"):
-        root.set(name, str(sum(int(suite.attrib[name]) for suite in root)))
     root.set("time", f"{sum(v.wall_time for v in validations):.3f}")
+    for element in (root, *root):
+        for name, counted in COUNTED.items():
+            element.set(name, str(len([*element.iter(counted)])))
     ET.indent(root)
     with replacing(path) as temporary:
         ET.ElementTree(root).write(temporary, encoding="utf-8", xml_declaration=True)
 
 
 def _suite(root: ET.Element, validation: Validation, provenance: Provenance) -> None:
-    counts = {
-        "tests": len(validation.checks)
-        + len(validation.run_failures)
-        + len(validation.not_applied),
-        "failures": len(validation.failed),
-        "errors": len(validation.run_failures),
-        "skipped": len(validation.not_applied),
-    }
     suite = ET.SubElement(root, "testsuite", name=_text(validation.fmu))
-    suite.attrib |= {name: str(number) for name, number in counts.items()}
     suite.set("time", f"{validation.wall_time:.3f}")
     facts = {"judged": validation.without} if validation.without else {}
     facts |= provenance_properties(provenance, validation.identity)
