@@ -126,7 +126,7 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
         (blocking, "on 2 faces"),
         (table, "amplitude_deviation 0 to 1"),
         (table, f"{min(table.columns['steady_velocity']):.6g} to"),
-        (validation, f"passed: {len(validation.checks)} of {len(validation.checks)} checks"),
+        (validation, f"pass: {len(validation.checks)} of {len(validation.checks)} checks"),
         (choice, choice.model.name),
         (fit, f"{fit.parameters[0].value:.8g}"),
         (scene, "table_1: The device of table 1"),
@@ -293,7 +293,7 @@ def test_trade_is_a_function(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) 
 def test_lines_that_do_not_fit_a_screen_are_counted() -> None:
     lines = repr(replace(BAD, checks=(SLOWER,) * 50)).splitlines()
     assert len(lines) <= 25
-    assert lines[1].startswith("  FAILED: 0 of 50 checks passed")
+    assert lines[1].startswith("  fail: 0 of 50 checks passed")
     assert lines[-1].endswith("lines more")
 
 

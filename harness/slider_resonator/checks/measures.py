@@ -56,11 +56,6 @@ def slow_displacement(times: Array, position: Array, period: float) -> Array:
     return np.asarray((integral[first:] - np.interp(starts[first:], times, integral)) / period)
 
 
-def last_step_velocity(times: Array, position: Array) -> float:
-    """Return the travel over the last step of a run by its time, m/s."""
-    return float((position[-1] - position[-2]) / (times[-1] - times[-2]))
-
-
 POINTS_PER_PERIOD = 8
 PERIODS = 4
 """The last drive periods of a record, to which the ripple is fitted."""

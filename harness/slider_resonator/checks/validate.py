@@ -153,12 +153,8 @@ class Validation(Shown, Tabular):
 
     def describe(self) -> list[str]:
         """Return the verdict, and a line for each scene that could not run and failed check."""
-        verdict = "passed" if self.passed else "FAILED" if self.exit_code == 1 else "could not run"
-        passed = len(self.checks) - len(self.failed)
-        scenes = number_of(len(self.scenes), "scene")
         return [
-            f"{verdict}: {passed} of {number_of(len(self.checks), 'check')} passed in {scenes}, "
-            f"{self.wall_time:.1f} s",
+            f"{self.outcome}: {self.count}",
             self.fmu,
             *([self.without] if self.without else []),
             *(f"could not run: {one.where}{one.reason}" for one in self.run_failures),

@@ -10,7 +10,6 @@ from slider_resonator.checks.compare import MAX_POINTS, Curves, curves_of, overv
 from slider_resonator.checks.measures import (
     Tube,
     dominant_frequency,
-    last_step_velocity,
     no_tube,
     ripple_amplitude,
     share_of,
@@ -82,11 +81,6 @@ def test_only_what_is_outside_counts() -> None:
     tube = Tube(middle, lower, np.array([0.0, 1.0, 0.2]))
     assert tube.outside(middle).tolist() == [0.0, 0.0, 0.0]
     assert np.allclose(tube.outside(np.array([0.1, 0.4, -0.05])), [0.1, 0.1, 0.0])
-
-
-def test_the_travel_of_the_last_step_alone_counts() -> None:
-    times = np.array([0.0, 0.1, 0.3, 0.5])
-    assert last_step_velocity(times, np.array([5.0, 1.0, 2.0, 2.5])) == pytest.approx(2.5)
 
 
 TABLE_1 = Device()

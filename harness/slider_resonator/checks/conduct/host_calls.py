@@ -89,7 +89,7 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     def made(name: str = "other", **arguments: Any) -> tuple[bool, list[str]]:
         """Make an instance and free it; return whether there was one, and the log."""
         messages, callbacks = fmu_log.collect(name)
-        component = _instantiated(instance, callbacks, name, **arguments)
+        component = _instantiated(instance, callbacks, name=name, **arguments)
         if component:
             slave.dll.fmi2DoStep(component, 0.0, -1.0, True)  # which is refused with a message
             slave.dll.fmi2SetupExperiment(component, False, 0.0, 0.0, False, 0.0)
@@ -100,7 +100,7 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
     last = "1" if guid[-2] == "0" else "0"
     wrong: dict[str, dict[str, Any]] = {
-        "of another GUID": {"token": guid[:-2] + last + guid[-1]},
+        "of another GUID": {"guid": guid[:-2] + last + guid[-1]},
         "without a name": {"name": ""},
     }
     if instance.fmu.description.modelExchange is None:
@@ -125,23 +125,20 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
             yield f"an instance with {argument} is not made"
 
 
-def _instantiated(
-    instance: Instance,
-    callbacks: fmi2CallbackFunctions,
-    name: str,
-    *,
-    kind: int = fmi2CoSimulation,
-    token: str = "",
-    location: str = "",
-    visible: bool = False,
-    logs: bool = True,
-) -> Any:
-    """Make another instance, with the GUID and the resources of the FMU where none are given."""
-    token = token or instance.fmu.description.guid
-    location = location or (instance.fmu.folder / "resources").as_uri()
-    return instance.slave.dll.fmi2Instantiate(
-        *(name.encode(), kind, token.encode(), location.encode(), byref(callbacks), visible, logs)
-    )
+def _instantiated(instance: Instance, callbacks: fmi2CallbackFunctions, **changed: Any) -> Any:
+    """Make another instance, as hosts make it but for the arguments that are changed."""
+    usual = {
+        "name": "other",
+        "kind": fmi2CoSimulation,
+        "guid": instance.fmu.description.guid,
+        "location": (instance.fmu.folder / "resources").as_uri(),
+        "callbacks": byref(callbacks),
+        "visible": False,
+        "logs": True,
+    }
+    arguments = {**usual, **changed}.values()  # in the order of fmi2Instantiate
+    encoded = (one.encode() if isinstance(one, str) else one for one in arguments)
+    return instance.slave.dll.fmi2Instantiate(*encoded)
 
 
 def _switching_faults(instance: Instance) -> Iterator[str]:
@@ -206,7 +203,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     messages, callbacks = fmu_log.collect(name)
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
     callbacks.componentEnvironment = host  # an FMU must only hand it back
-    made, again = (_instantiated(instance, callbacks, name, logs=False) for _ in range(2))
+    made, again = (_instantiated(instance, callbacks, name=name, logs=False) for _ in range(2))
     if not (made and again):
         yield "an instance beside another, or a further one of the same name, is not made"
         return

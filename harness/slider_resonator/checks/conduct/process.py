@@ -116,11 +116,10 @@ def _use(instance: Instance) -> None:
     is_refused(instance.set, {"load": math.nan})
     is_refused(instance.slave.getReal, [UNKNOWN])
     if instance.fmu.offers.canGetAndSetFMUstate:
-        state = SavedState.of(instance)
-        state.restore()
-        if instance.fmu.offers.canSerializeFMUstate:
-            state.transfer(instance)
-        state.free()
+        with SavedState.of(instance) as state:
+            state.restore()
+            if instance.fmu.offers.canSerializeFMUstate:
+                state.transfer(instance)
     if isinstance(instance.slave, FMU2Slave):
         instance.call("fmi2SetDebugLogging", False, 0, None)
 
