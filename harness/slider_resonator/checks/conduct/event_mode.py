@@ -1,7 +1,7 @@
 """Event mode of FMI 3.0: steps that end at events, what they answer, and the time in between."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from ctypes import c_double, c_uint
 from math import tau
 
@@ -27,10 +27,11 @@ MAX_EVENTS = 100
 """Events in a step from which on it makes no progress."""
 
 
-class _EventRun:
+class _EventRun(AbstractContextManager["_EventRun"]):
     """A run of the device on an instance of its own, by the calls that only FMI 3.0 has.
 
-    `seen` are the times (s) of the events that have ended a step.
+    `seen` are the times (s) of the events that have ended a step. The end of a `with` block frees
+    the instance.
     """
 
     def __init__(self, fmu: Fmu, *, events: bool = True, early: bool = True) -> None:
@@ -42,6 +43,13 @@ class _EventRun:
         self.slave.instantiate(
             eventModeUsed=events, earlyReturnAllowed=early, logMessage=lambda *_: None
         )
+        self.slave.enterInitializationMode(startTime=0.0, stopTime=STEPS * STEP)
+        for name, value in DEVICE.items():
+            self.slave.setFloat64([fmu.reference(name)], [value])
+        self.slave.exitInitializationMode()
+
+    def __exit__(self, *_: object) -> None:
+        self.slave.freeInstance()
 
     def read(self, *names: str) -> list[float]:
         return list(self.slave.getFloat64([self.fmu.reference(name) for name in names]))
@@ -86,20 +94,6 @@ class _EventRun:
         yield f"{MAX_EVENTS} events between two communication points"
 
 
-@contextmanager
-def _started(fmu: Fmu, *, events: bool = True, early: bool = True) -> Iterator[_EventRun]:
-    """Start a run, at whose end the instance is freed."""
-    run = _EventRun(fmu, events=events, early=early)
-    try:
-        run.slave.enterInitializationMode(startTime=0.0, stopTime=STEPS * STEP)
-        for name, value in DEVICE.items():
-            run.slave.setFloat64([fmu.reference(name)], [value])
-        run.slave.exitInitializationMode()
-        yield run
-    finally:
-        run.slave.freeInstance()
-
-
 def event_mode_faults(instance: Instance) -> Iterator[str]:
     """Run an FMI 3.0 FMU with and without event mode, and compare."""
     fmu = instance.fmu
@@ -121,7 +115,7 @@ def _event_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iter
     Step to the very times of events, too, each from the start, and on: by rounding they come then.
     """
     peaks = np.max(np.abs(rows), axis=0)
-    with _started(fmu) as run:
+    with _EventRun(fmu) as run:
         yield from run.handle_event()
         for step, row in enumerate(rows):
             yield from run.advance(step * STEP, (step + 1) * STEP)
@@ -135,7 +129,7 @@ def _event_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iter
         if not any(abs(time - other) <= SAME_TIME for other in run.seen):
             yield f"the event at {time!r} s ends no step"
     for time in times:
-        with _started(fmu) as run:
+        with _EventRun(fmu) as run:
             yield from run.handle_event()
             yield from run.advance(0.0, time)
             yield from run.advance(time, time + 1e-9)
@@ -145,7 +139,7 @@ def _event_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iter
 
 def _return_faults(fmu: Fmu) -> Iterator[str]:
     """Run with event mode, but without early return: steps run through events."""
-    with _started(fmu, early=False) as run:
+    with _EventRun(fmu, early=False) as run:
         run.slave.enterStepMode()
         for step in range(STEPS):
             *_, early, reached = run.slave.doStep(step * STEP, STEP)
@@ -156,7 +150,7 @@ def _return_faults(fmu: Fmu) -> Iterator[str]:
 
 def _call_faults(fmu: Fmu) -> Iterator[str]:
     """Try calls that only FMI 3.0 has."""
-    with _started(fmu, events=False, early=False) as run:
+    with _EventRun(fmu, events=False, early=False) as run:
         slave, position = run.slave, fmu.reference("position")
         slave.doStep(0.0, STEP)
         if not is_refused(slave.enterEventMode):
