@@ -35,7 +35,6 @@ ALLOWED = "slider-resonator.deviation-of-peak"
 """Type of the annotation with the allowed deviation, as a share of the peak of each result."""
 USUAL_DEVIATION = 1e-4
 """Allowed deviation of results without that annotation."""
-WHY = "the FMU carries this result of its experiment"
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +105,8 @@ def _judged(experiment: OwnExperiment, record: Record) -> Iterator[Judged]:
     if late.any():
         raise SceneError(f"result at time = {times[late][0]:.9g}: must be a communication point")
     for name, expected in experiment.results.items():
-        comparison = Comparison(name, "own result", WHY, relative=experiment.allowed)
+        why = "the FMU carries this result of its experiment"
+        comparison = Comparison(name, "own result", why, relative=experiment.allowed)
         yield comparison, Measurement(record[name][rows], times=times), expected
 
 

@@ -41,10 +41,6 @@ EXTREMES: tuple[Values, ...] = (
     },
 )
 """Devices at the ends of floating point numbers: refused, or of finite outputs."""
-NEXT_TO = 1e-8
-"""Share by which a good value differs from a bad one: a device may be that near to resonance."""
-LONG_STEP = 0.2
-"""A step (s) that takes the last of them beyond."""
 
 
 def device_faults(fmu: FmuSide) -> Iterator[str]:
@@ -66,14 +62,13 @@ def device_faults(fmu: FmuSide) -> Iterator[str]:
             instance.call("fmi2EnterInitializationMode")
             instance.begin()
             yield from _infinite(instance, values)
-            instance.step_by(LONG_STEP)
+            instance.step_by(0.2)  # which takes the last of them beyond
             yield from _infinite(instance, values)
             if is_refused(instance.read, ["position", "velocity"]):
                 yield f"a step is accepted but its motion cannot be read: {values}"
 
 
 def _start(instance: Instance, device: Values) -> None:
-    """Start a run and step."""
     instance.initialise(device)
     instance.begin()
     instance.step_by(STEP)
@@ -90,11 +85,9 @@ def _infinite(instance: Instance, values: str) -> Iterator[str]:
 
 def _in_a_run(instance: Instance, what: str, device: Values, cause: Values) -> list[str]:
     """Turn a good device into the bad one; the run must then go on as if nothing was tried."""
-    starts = {name: VARIABLES[name].start or 0.0 for name in cause}
-    good = {
-        name: (1.0 + NEXT_TO) * start if start == cause[name] else start
-        for name, start in starts.items()
-    }
+    good = {name: VARIABLES[name].start or 0.0 for name in cause}
+    if good == cause:  # a device may be that near to resonance
+        good = {name: (1.0 + 1e-8) * value for name, value in good.items()}
     trial = Trial(instance)
     trial.watch(*instance.fmu.outputs)
     _start(instance, {**device, **good})

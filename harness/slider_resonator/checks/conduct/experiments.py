@@ -43,8 +43,6 @@ million that are not resolved, of a slider that trembles on hard bristles under 
 next to no damping at resonance."""
 SHORT, MANY, TOGETHER = 1e-5, 120_000, 1000
 """Steps (s) of a host that samples the motion, their number, and how many another takes in one."""
-SLOWER = 5.0
-"""How much slower the last of them may be than the first."""
 PATIENCE = 5.0
 """Seconds after which a slow FMU has taken enough of them."""
 EARLY = -3.0
@@ -122,7 +120,7 @@ def _many_steps_faults(instance: Instance) -> Iterator[str]:
         times.append(time.monotonic())
     taken = np.diff(times)
     slower = taken[-5:].min() / taken[:2].max()
-    if slower > SLOWER:
+    if slower > 5.0:
         yield f"steps take {slower:.0f} times as long after {steps}"
     found = instance.outputs()
     instance.start({"phase": 0.4})

@@ -22,8 +22,6 @@ UNKNOWN = 0x7FFFFFFF
 
 CHOSEN = ("fidelity", "friction_law", "averaging_order")
 """Variables that choose a model."""
-SHARE = 0.37
-"""Change of a value in units of its nominal one."""
 
 
 def other_value(name: str, value: float | None = None) -> float:
@@ -38,7 +36,7 @@ def other_value(name: str, value: float | None = None) -> float:
         return low if value != low else high
     if variable.maximum is not None:
         return 0.5 * (value + variable.maximum)
-    return value + SHARE * (abs(value) or variable.nominal or 1.0)
+    return value + 0.37 * (abs(value) or variable.nominal or 1.0)
 
 
 def values_to_vary(instance: Instance) -> list[str]:

@@ -159,8 +159,6 @@ PATIENCE = 2.0
 """Seconds after which a slow FMU has made enough of them."""
 OF_INSTANCE, OF_STATE, OF_STEP, OF_REFUSAL = 512.0, 64.0, 8.0, 64.0
 """Bytes that each may leave. The host itself leaves some."""
-STEPPED = 200, 2000
-"""Steps before memory is counted, and until it is counted again."""
 MAPPED = 4 << 20
 """Bytes of memory that a process may map for its own purposes meanwhile."""
 
@@ -209,7 +207,7 @@ def step_leaks(instance: Instance) -> Iterator[str]:
         is_refused(instance.call, "fmi2DoStep", instance.time, -STEP, True)
         del instance.messages[:]
 
-    yield from _leaks("step", use, OF_STEP, STEPPED)
+    yield from _leaks("step", use, OF_STEP, (200, 2000))
     yield from _leaks("refusal", refuse, OF_REFUSAL)
 
 
@@ -264,8 +262,6 @@ def _in_use() -> tuple[int, int]:
 
 INSTANCES = 4
 """How many instances there are at a time, beside that of the scene."""
-STACK = 1 << 20
-"""Bytes of the stack of a thread, as on Windows."""
 
 
 def crowd_faults(instance: Instance) -> Iterator[str]:
@@ -289,7 +285,7 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
         except FmuError as error:
             yield f"an instance beside {INSTANCES} others is refused: {error}"
             return
-        stack.callback(stack_size, stack_size(STACK))  # of threads of hosts that save memory
+        stack.callback(stack_size, stack_size(1 << 20))  # of a thread, as on Windows
         with ThreadPoolExecutor(INSTANCES) as pool:
             together = [one.rows for one in pool.map(Replay, others, repeat({}), courses)]
             if together != [one.rows for one in alone]:

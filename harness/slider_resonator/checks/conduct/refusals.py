@@ -5,7 +5,6 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
-from typing import Any
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
@@ -207,22 +206,22 @@ class Trial:
 
     def refuses_types(self) -> None:
         """Read and set variables, of which one is unknown, by the functions of other types."""
-        slave, types = self.instance.slave, {"Real", "Integer"}
+        slave = self.instance.slave
+        good: dict[str, float | str] = {"Real": 0.5, "Integer": 1}
         if isinstance(slave, FMU2Slave):
-            types |= {"Boolean", "String"}
-        good: dict[str, Any] = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "1"}
+            good |= {"Boolean": True, "String": "1"}
         references = {v.name: self.instance.fmu.reference(v.name) for v in self.present}
         # A reference belongs to one variable of each type.
         valid = {(v.kind, references[v.name]) for v in self.present}
         last = max(variable.valueReference for variable in self.instance.fmu.variables.values())
         unknown = {"the reference after the last": last + 1, "an unknown reference": UNKNOWN}
         explained = self.instance.fmu.log_categories
-        for kind in sorted(types):
+        for kind, value in good.items():
             read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
             for what, reference in {**references, **unknown}.items():
                 if (kind, reference) not in valid:
                     told = (reference,) if explained and what in unknown else ()
-                    attempt = partial(write, [reference], [good[kind]])
+                    attempt = partial(write, [reference], [value])
                     self.refuses(f"reading {what} as {kind}", partial(read, [reference]), (), told)
                     self.refuses(f"setting {what} as {kind}", attempt, (), told)
         around = (references["load"], UNKNOWN, references["load"])

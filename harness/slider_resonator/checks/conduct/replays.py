@@ -28,20 +28,10 @@ from slider_resonator.fmu.run import Running
 
 Rows = Sequence[Sequence[float]]
 
-SAVED_AT = (0.0, 0.37, 0.81)
-"""Shares of the steps of a run after which its state is saved."""
-TRANSFERRED_AT = (0.22, 0.53, 0.87)
-"""Shares of the steps after which another instance takes over."""
-BREAKING_LOAD = 10.0
-"""Added load (N) under which initialization ends where the load is set after it."""
-DETOUR = 3
-"""Steps under other values before a state is restored."""
 AWAY = 1e-4
 """A step (s) that is taken back."""
 RATES = (1.0, 2.0, 3.0)
 """Derivatives of the inputs, per s."""
-ROUNDING = 1e-9
-"""Share of the peak by which positions may differ where inputs are added up differently."""
 
 
 class Replay:
@@ -110,7 +100,7 @@ def restored_differences(fmu: FmuSide) -> Iterator[str]:
     largest = np.abs(np.array(plain.rows)).max(axis=0).tolist()
     peaks = dict(zip(instance.fmu.outputs, largest, strict=True))
     running = plain.started()
-    steps = {int(share * running.steps) for share in SAVED_AT}
+    steps = {int(share * running.steps) for share in (0.0, 0.37, 0.81)}
     saved: list[tuple[int, int, SavedState]] = []
     with ExitStack() as states:
         for step in range(running.steps):
@@ -123,10 +113,10 @@ def restored_differences(fmu: FmuSide) -> Iterator[str]:
         yield from plain.differences("while states are saved", running.rows)
         for step, rows, state in reversed(saved):
             state.restore()
-            # A detour: other inputs and tunables for a few steps.
+            # A detour: other inputs and tunables for three steps.
             present = {**running.first, **instance.read(TUNABLES)}
             instance.set({name: other_value(name, value) for name, value in present.items()})
-            for index in range(step, min(step + DETOUR, running.steps)):
+            for index in range(step, min(step + 3, running.steps)):
                 instance.step_by(running.step_size(index))
             state.restore()
             running.rows = []
@@ -145,7 +135,7 @@ def transferred_differences(fmu: FmuSide) -> Iterator[str]:
     plain = Replay.of(fmu)
     with instantiate(instance.fmu) as other:
         running, taken = plain.started(), Running(other, plain.schedule)
-        steps = {int(share * running.steps) for share in TRANSFERRED_AT}
+        steps = {int(share * running.steps) for share in (0.22, 0.53, 0.87)}
         for step in range(running.steps):
             if step in steps:
                 with SavedState.of(instance) as state:
@@ -232,7 +222,7 @@ def separate_differences(fmu: FmuSide) -> Iterator[str]:
     plain, instance = Replay.of(fmu), fmu.instance
     running = Running(instance, plain.schedule)
     present = dict(running.first)
-    broken = {"load": present["load"] + BREAKING_LOAD}
+    broken = {"load": present["load"] + 10.0}
     instance.start({**plain.parameters, **present, **broken}, **running.span)
     instance.set({"load": present["load"]})
     running.read()
@@ -337,7 +327,7 @@ def rate_differences(fmu: FmuSide) -> Iterator[str]:
     place = instance.fmu.outputs.index("position")
     kept, expected = (np.array(rows)[:, place] for rows in (_rows(plain, at_corners), plain.rows))
     off = float(np.abs(kept - expected).max() / np.abs(expected).max())
-    if not off <= ROUNDING:
+    if not off <= 1e-9:  # for inputs are added up differently
         yield f"position is off by {off:.2g} of its peak where derivatives are kept"
     yield from _begun(instance, fmu.scene.parameters)
 

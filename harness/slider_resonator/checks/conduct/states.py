@@ -5,6 +5,7 @@ from contextlib import suppress
 from ctypes import byref, c_char, c_void_p, create_string_buffer
 from functools import partial
 from itertools import product
+from uuid import UUID
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
@@ -25,14 +26,8 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 
 STEP = 1.3e-3
 """Size of a step, s."""
-LOAD = 0.02
-"""Load (N) of another instance."""
 STATES, MANY = 12, 300
 """How many states a host goes back to, and how many it keeps at a time."""
-OTHER = {"resonator_mass": 0.2, "damping_ratio": 0.1, "friction_faces": 1.0}
-"""Another device."""
-GUID = b"00000000-0000-0000-0000-000000000000"
-"""The GUID of another FMU."""
 DAMAGED = 24
 """Places in a serialised state at which a bit is turned."""
 
@@ -114,8 +109,9 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
             yield "a state is serialised into too few bytes"
     damaged["of zeros"] = bytes(len(content))
     damaged["with something after it"] = content + bytes(8)
-    guid = instance.fmu.description.guid.strip("{}").encode()
-    damaged["of another FMU"] = content.replace(guid, GUID) if guid in content else content[::-1]
+    guid, other = instance.fmu.description.guid.strip("{}"), str(UUID(int=0))
+    foreign = content.replace(guid.encode(), other.encode())
+    damaged["of another FMU"] = foreign if foreign != content else content[::-1]
     for what, content_then in damaged.items():
         with suppress(FMICallException):
             taken = slave.deSerializeFMUstate(content_then)
@@ -139,7 +135,7 @@ def _process_faults(instance: Instance) -> Iterator[str]:
 
     What the state refers to is not there, such as the instance that it was saved of.
     """
-    instance.start({"load": LOAD})
+    instance.start({"load": 0.02})
     instance.step_by(STEP)
     with SavedState.of(instance) as state:
         content = state.serialised()
@@ -175,12 +171,13 @@ def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
         states.append(SavedState.of(instance))
     for state in [SavedState.of(instance) for _ in range(MANY)]:
         state.free()
+    other = {"resonator_mass": 0.2, "damping_ratio": 0.1, "friction_faces": 1.0}
     ways: dict[str, Callable[[], object]] = {
         "in a run": lambda: None,
         "after the end of a run": instance.terminate,
         "after a reset": lambda: instance.call("fmi2Reset"),
         "in initialization mode": lambda: instance.initialise({}),
-        "in a run of another device": lambda: instance.start(OTHER),
+        "in a run of another device": lambda: instance.start(other),
     }
     for when, leave in ways.items():
         leave()

@@ -134,15 +134,12 @@ SITUATIONS: Sequence[Mapping[str, float]] = (
     {"normal_preload": 0.5, "initial_velocity": 0.1, "phase": 2.0},  # with flight
 )
 """Devices and inputs in which variables are changed, one by one; there is one for each model."""
-STEPS = 4
-SHORT = 1.37e-4
-"""Steps (s) of a run after each of which an input is changed."""
 
 
 def dependency_faults(fmu: FmuSide) -> Iterable[str]:
     """Change each variable at the start, and each input in a run, and see which outputs follow.
 
-    An input in a run is set back after each step.
+    An input in a run is set back after each of four short steps.
     """
     instance, description = fmu.instance, fmu.instance.fmu.description
     at_start = _declared(description.initialUnknowns)
@@ -160,8 +157,8 @@ def dependency_faults(fmu: FmuSide) -> Iterable[str]:
                 faults += _undeclared(instance, name, before, at_start, "at the start")
         instance.start(situation)
         instance.outputs()
-        for _ in range(STEPS):
-            before = outputs_after(instance, SHORT)
+        for _ in range(4):
+            before = outputs_after(instance, 1.37e-4)
             for name in (*INPUTS, *DEVIATIONS):
                 if name in names:
                     instance.set({name: other_value(name, present[name])})

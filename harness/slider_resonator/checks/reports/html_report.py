@@ -82,14 +82,9 @@ def _failure(check: Check, curves: Curves | None) -> list[str]:
 ZOOM_POINTS = 64
 """Points shown on each side of the first one outside the tolerance."""
 DIGITS = 8
-HEIGHT, DIFFERENCE_HEIGHT = 240, 170
-MAX_MARKERS = 60
-"""Points of a curve up to which each is marked."""
 REFERENCE, FMU = "#f0a58f", "#1f3b57"
 MAX_UNFOLDED = 3
 """Number of scenes up to which those that pass are unfolded, too."""
-MIN_DECADES = 2.0
-"""Width of a sweep from which on its axis is logarithmic."""
 COLUMNS = (
     *texts("quantity", ""),
     *numbers("FMU", "reference", "off by", "allowed"),
@@ -155,7 +150,7 @@ def _over_sweep(checks: Sequence[Check]) -> list[HoverPlot]:
         if (check.quantity, check.against) == (first.quantity, first.against)
     ]
     x, fmu, reference = ([*column] for column in zip(*points, strict=True))
-    is_wide = x[0] > 0.0 and math.log10(x[-1] / x[0]) >= MIN_DECADES
+    is_wide = x[0] > 0.0 and x[-1] >= 100.0 * x[0]
     name = first.quantity.replace("_", " ")
     return _overlay(
         f"{name} over {variable.replace('_', ' ')}: FMU on reference",
@@ -169,7 +164,7 @@ def _overlay(
     title: str, x_axis: Axis, y_axis: Axis, x: list[float], fmu: list[float], reference: list[float]
 ) -> list[HoverPlot]:
     """Return the plot of FMU and reference, and below it that of their difference."""
-    marker = "●" if len(fmu) <= MAX_MARKERS else ""
+    marker = "●" if len(fmu) <= 60 else ""  # a mark for each point of a few
     both = [
         Series("reference", x, reference, REFERENCE, "", 5.0),
         Series("FMU", x, fmu, FMU, marker, 1.3),
@@ -179,8 +174,8 @@ def _overlay(
     difference = [Series("FMU - reference", x, off, FMU, marker, 1.3)]
     below = Axis(f"difference {y_axis.label[y_axis.label.rindex('[') :]}")
     return [
-        HoverPlot(title, x_axis, y_axis, both, HEIGHT),
-        HoverPlot("FMU - reference", x_axis, below, difference, DIFFERENCE_HEIGHT),
+        HoverPlot(title, x_axis, y_axis, both, 240),
+        HoverPlot("FMU - reference", x_axis, below, difference, 170),
     ]
 
 
