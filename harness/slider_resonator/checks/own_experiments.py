@@ -140,7 +140,7 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
             "device": _parameters(sources["Parameters"]) if "Parameters" in sources else {},
             "inputs": inputs,
             "run": {
-                key: finite_number(f"{where}: {name}", run.get(name)) for key, name in times.items()
+                key: finite_number(f"{where}: {time}", run.get(time)) for key, time in times.items()
             },
         },
         where,
@@ -150,10 +150,9 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     columns = _columns(table, signals)
     found = {one: csv_signal(table, one, "hold", QUANTITIES[one].unit) for one in columns}
     results = {name: np.array(one.values) for name, one in found.items()}
-    annotation = entry.find(f"References/Annotations/Annotation[@type='{ALLOWED}']")
-    allowed = USUAL_DEVIATION
-    if annotation is not None:
-        allowed = finite_number(f"{where}: {ALLOWED}", annotation.text)
+    annotation = f"References/Annotations/Annotation[@type='{ALLOWED}']"
+    text = entry.findtext(annotation, f"{USUAL_DEVIATION}")
+    allowed = finite_number(f"{where}: {ALLOWED}", text)
     if not 0.0 < allowed < 1.0:
         raise SceneError(f"{where}: {ALLOWED} = {allowed:g}: must be a share between 0 and 1")
     return OwnExperiment(scene, {}, np.array(found[columns[0]].times), results, allowed)

@@ -224,7 +224,7 @@ def judge_points(
     began, identity = perf_counter(), identity_of(path)
     checks, curves = list[Check](), list[Curves]()
     run_failures, not_applied = list[RunFailure](), list[NotApplied]()
-    overviews = dict[str, Curves | None]()
+    overviews = dict[str, Curves]()
     with closing(measure_points(path, points, measure, time_limit, jobs)) as outcomes:
         for done, (point, outcome) in enumerate(outcomes):
             if point is not None:
@@ -249,8 +249,8 @@ def judge_points(
                     if shown := curves_of(check, measured, expected):
                         signals.append(shown)
             curves += [shown for shown in signals if not shown.check.passed]
-            if name not in overviews:
-                overviews[name] = overview_of(signals)
+            if name not in overviews and (overview := overview_of(signals)):
+                overviews[name] = overview
     return Validation(
         str(path),
         tuple(checks),
@@ -260,7 +260,7 @@ def judge_points(
         lacking(path),
         tuple(not_applied),
         identity,
-        tuple(overview for overview in overviews.values() if overview is not None),
+        tuple(overviews.values()),
     )
 
 
