@@ -116,8 +116,6 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
 
 MIN_POINTS = 8
 """Fewest points for a further process: loading it takes as long as some references."""
-TIME_LIMIT = 1e6
-"""Time limit (s) of a reference: none."""
 
 
 class ExpectedValues(AbstractContextManager["ExpectedValues"]):
@@ -129,7 +127,7 @@ class ExpectedValues(AbstractContextManager["ExpectedValues"]):
 
     def __init__(self, points: Sequence[ScenePoint], jobs: int = 1) -> None:
         count = max(1, min(jobs, len(points) // MIN_POINTS))
-        self._processes = LocalProcesses(None, TIME_LIMIT, count)
+        self._processes = LocalProcesses(None, 1e6, count)  # s, more than any reference takes
         self._values = {
             point: self._processes.submit(partial(values_in, point.scene)) for point in points
         }

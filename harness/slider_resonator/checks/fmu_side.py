@@ -23,9 +23,6 @@ PREDICTIONS: Mapping[str, str] = {
 """Quantities, each with the output that it is measured from in a run. These outputs can cost more
 than the motion: an FMU computes them when they are read."""
 
-RESOLVED_TOLERANCE = 1e-10
-"""Largest tolerance of resolved motion that errors are measured against."""
-
 
 class FmuSide:
     """Run, steady motion and blocking force of one FMU instance in one scene.
@@ -47,8 +44,8 @@ class FmuSide:
 
     @cached_property
     def resolved(self) -> Record:
-        """The mean velocity of the same run at fidelity 2, to `RESOLVED_TOLERANCE` at least."""
-        tolerance = min(self.scene.device.tolerance, RESOLVED_TOLERANCE)
+        """The mean velocity of the same run at fidelity 2, to a tolerance of 1e-10 at least."""
+        tolerance = min(self.scene.device.tolerance, 1e-10)
         parameters = {**self.scene.parameters, "fidelity": 2, "tolerance": tolerance}
         outputs = ("mean_velocity",)
         return run(self.instance, parameters, self.scene.schedule(), outputs=outputs)

@@ -83,10 +83,6 @@ def ripple_amplitude(times: Array, position: Array, period: float) -> float:
     return float(np.hypot(coefficients[2], coefficients[3]))
 
 
-HARMONICS = 3
-"""Harmonics in the fit: without them a distorted wave would shift the frequency."""
-
-
 class NoOscillation(ValueError):
     """A signal that is constant or not finite, and has no frequency."""
 
@@ -112,13 +108,12 @@ def dominant_frequency(times: Array, signal: Array) -> float:
     line = max(int(np.argmax(spectrum)), 1)
     bounds = ((line - 1.0 + 1e-3) * resolution, (line + 1.0) * resolution)
     local = times - times.mean()
-
     nyquist = 0.5 * (len(times) - 1) / np.ptp(times)
 
     def misfit(at: Array) -> Array:
         """Return what constant, trend and the waves of a frequency (Hz) leave of the signal."""
         columns = [np.ones_like(local), local / np.ptp(local)]
-        for harmonic in range(1, HARMONICS + 1):
+        for harmonic in (1, 2, 3):  # without these a distorted wave would shift the frequency
             if harmonic == 1 or harmonic * at[0] < 0.9 * nyquist:
                 angle = 2.0 * np.pi * harmonic * at[0] * local
                 columns += [np.cos(angle), np.sin(angle)]

@@ -61,10 +61,6 @@ NOT_FINITE = (math.nan, math.inf, -math.inf)
 ENDING = {fmi2Discard: "Discard", fmi2Fatal: "Fatal"}
 """Statuses of a refusal that end more than a call; the same numbers in each version of FMI."""
 _NUMBER = re.compile(r"[-+]?(?:\bnan\b|\binf\b|\d+\.?\d*(?:e[-+]?\d+)?)", re.IGNORECASE)
-SHARPER = ("tolerance",)
-"""Variables that an FMU may make smaller for itself, so that a message has another value."""
-JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
-"""Distances (s) from the present time at which a step cannot begin."""
 
 
 class Trial:
@@ -131,7 +127,8 @@ class Trial:
     ) -> None:
         """Set a variable; the log must have its name, and the value with what else is told."""
         what = f"{variable.name} = {value!r} {when}"
-        values = [] if variable.name in SHARPER else [value, *told]
+        # An FMU may make a tolerance smaller for itself, so that a message has another value.
+        values = [] if variable.name == "tolerance" else [value, *told]
         self.refuses(what, partial(self._set, {variable: value}), [variable.name], values)
 
     def refuses_values(self, when: str, variables: Sequence[Variable]) -> None:
@@ -254,7 +251,7 @@ class Trial:
 
     def refuses_jumps(self) -> None:
         """Make steps that begin at another time than the present one."""
-        for jump in JUMPS:
+        for jump in (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf):
             what = f"a step {jump!r} s away from the present time"
             self.refuses_step(what, self.instance.time + jump, STEP)
 

@@ -19,9 +19,6 @@ from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-MAX_PICTURES = 40
-"""Maximum pictures for each FMU, one per sweep: a very faulty FMU fails everywhere."""
-
 
 def write_html(
     path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
@@ -53,7 +50,8 @@ def _section(number: int, validation: Validation) -> list[str]:
         parts.append(f'<p class="fail">{escaped(failure.where + failure.reason)}</p>')
     pictures = {id(curves.check): curves for curves in validation.curves}
     for index, (check, _) in enumerate(worst_of_sweeps(validation.failed)):
-        parts += _failure(check, pictures.get(id(check)) if index < MAX_PICTURES else None)
+        # A very faulty FMU fails everywhere: the first 40 have pictures.
+        parts += _failure(check, pictures.get(id(check)) if index < 40 else None)
     if validation.checks:
         parts += scene_sections(validation, f"scene-{number}")
     if validation.not_applied:
@@ -81,7 +79,6 @@ def _failure(check: Check, curves: Curves | None) -> list[str]:
 
 ZOOM_POINTS = 64
 """Points shown on each side of the first one outside the tolerance."""
-DIGITS = 8
 REFERENCE, FMU = "#f0a58f", "#1f3b57"
 MAX_UNFOLDED = 3
 """Number of scenes up to which those that pass are unfolded, too."""
@@ -187,6 +184,6 @@ def _row(check: Check) -> Row:
     *counted, measure = sizes(check)
     shown = ["-" if s is None else f"{s:.2g}" for s in counted]
     unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
-    values = [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
+    values = [value_text(value, 8) for value in (check.fmu, check.reference)]
     first = (title(check) + unit, verdict(check.passed))
     return (*first, *values, *shown, measure, check.why)

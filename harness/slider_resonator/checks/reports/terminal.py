@@ -20,11 +20,7 @@ MAX_SCENES = 12
 """Number of scenes with a line each: those farthest beyond a bound, or nearest to it."""
 MAX_FAILED = 24
 """Number of failed checks that are shown, the worst."""
-DIGITS = 8
-"""Significant digits in the table; what is asserted is the deviation, which has its own column."""
 SIGNAL = "*"
-PEAK = "the peak of a signal; off by and allowed are shares of it; all others are in their unit"
-"""What the asterisk means, by the names of the columns."""
 
 
 def print_validation(
@@ -53,7 +49,8 @@ def print_validation(
     if rows:
         show_table(console, _table(rows, details))
     if any(_of_peak(check) for check, _ in rows):
-        console.print(words(f"{SIGNAL} {PEAK}", console.width))
+        shares = "the peak of a signal; off by and allowed are shares of it"
+        console.print(words(f"{SIGNAL} {shares}; all others are in their unit", console.width))
     for check, _ in rows:
         if not check.passed:
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
@@ -65,10 +62,8 @@ def print_validation(
     for text in _not_applied_lines(validation, details):
         _print_line(console, Text(escaped(f"not applicable: {text}")))
     summary = Text(f"{escaped(validation.fmu)}: ")
-    for found, what in (
-        (validation.failed, "failed"),
-        (validation.run_failures, "could not be run"),
-    ):
+    wrong = {"failed": validation.failed, "could not be run": validation.run_failures}
+    for what, found in wrong.items():
         if found:
             summary.append(f"{len(found)} {what}", STYLES[Style.FAIL]).append(", ")
     summary.append(validation.count)
@@ -136,7 +131,7 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
         unit = f", {check.unit}" if check.unit not in ("", "1") else ""
         mark = SIGNAL if _of_peak(check) else ""
         cells = [f" {check.quantity}{mark}{unit}", *([place(check.at)] if swept else [])]
-        cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
+        cells += [value_text(value, 8) for value in (check.fmu, check.reference)]
         cells.append(CALLED.get(check.against, check.against))
         cells += [_size(size) for size in sizes(check)[:2]]
         rows.append((*cells, verdict(check.passed)))
