@@ -230,9 +230,8 @@ def _number_faults(instance: Instance) -> Iterator[str]:
     reference, load = map(instance.fmu.reference, ("normal_force", "load"))
     expected = instance.value("normal_force")
     twice = list(instance.slave.getReal([reference, load, reference]))
-    if instance.fmu.runs_without_python and not is_refused(
-        instance.call, "fmi2GetReal", byref(c_uint(reference)), 1, None
-    ):
+    nowhere = byref(c_uint(reference)), 1, None
+    if instance.fmu.runs_without_python and not is_refused(instance.call, "fmi2GetReal", *nowhere):
         yield "a null pointer is accepted as the place of a value"
     if twice != [expected, instance.value("load"), expected]:
         yield "normal_force read twice in a call is not the same"

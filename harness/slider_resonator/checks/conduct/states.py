@@ -85,49 +85,42 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
     with SavedState.of(instance) as saved:
         content = saved.serialised()
     instance.step_by(STEP)
-    time, before = instance.time, instance.outputs()
+    before = instance.outputs()
     slave.freeFMUstate(slave.deSerializeFMUstate(content))
     if instance.outputs() != before:
         yield "a serialised state that is read is set at once"
-    state = slave.getFMUstate()
     size = len(content)
     damaged = {f"cut off after {n} bytes": content[:n] for n in (0, size // 2, size - 8, size - 1)}
     for number in range(DAMAGED):
-        place, bit = (2 * number + 1) * len(content) // (2 * DAMAGED), number % 8
+        place, bit = (2 * number + 1) * size // (2 * DAMAGED), number % 8
         changed = bytearray(content)
         changed[place] ^= 1 << bit
         damaged[f"with bit {bit} of byte {place} turned"] = bytes(changed)
-    if isinstance(slave, FMU2Slave) and instance.fmu.runs_without_python:
-        behind = b"\xff" * 8
-        target = create_string_buffer(content + behind)
-        instance.call("fmi2SerializeFMUstate", state, target, size)
-        if not target.raw[size:].startswith(behind):
-            yield "a state is serialised beyond its size"
-        few = (c_char * (len(content) - 1))()
-        with suppress(FMICallException):
-            instance.call("fmi2SerializeFMUstate", state, few, len(few))
-            yield "a state is serialised into too few bytes"
-    damaged["of zeros"] = bytes(len(content))
+    damaged["of zeros"] = bytes(size)
     damaged["with something after it"] = content + bytes(8)
     guid, other = instance.fmu.description.guid.strip("{}"), str(UUID(int=0))
     foreign = content.replace(guid.encode(), other.encode())
     damaged["of another FMU"] = foreign if foreign != content else content[::-1]
-    for what, content_then in damaged.items():
-        with suppress(FMICallException):
-            taken = slave.deSerializeFMUstate(content_then)
-            try:
-                slave.setFMUstate(taken)
-                again = slave.getFMUstate()
-                if bytes(slave.serializeFMUstate(again)) != content:
-                    yield f"a serialised state {what} is accepted"
-                slave.freeFMUstate(again)
-            finally:
-                slave.freeFMUstate(taken)
-        slave.setFMUstate(state)
-    instance.time = time
-    if instance.outputs() != before:
-        yield "a damaged state that is refused changes outputs"
-    slave.freeFMUstate(state)
+    with SavedState.of(instance) as present:
+        if isinstance(slave, FMU2Slave) and instance.fmu.runs_without_python:
+            behind = b"\xff" * 8
+            target = create_string_buffer(content + behind)
+            instance.call("fmi2SerializeFMUstate", present.handle, target, size)
+            if not target.raw[size:].startswith(behind):
+                yield "a state is serialised beyond its size"
+            few = (c_char * (size - 1))()
+            arguments = present.handle, few, size - 1
+            if not is_refused(instance.call, "fmi2SerializeFMUstate", *arguments):
+                yield "a state is serialised into too few bytes"
+        for what, bad in damaged.items():
+            with suppress(FMICallException):
+                instance.resume(bad, instance.time)
+                with SavedState.of(instance) as again:
+                    if again.serialised() != content:
+                        yield f"a serialised state {what} is accepted"
+            present.restore()
+        if instance.outputs() != before:
+            yield "a damaged state that is refused changes outputs"
 
 
 def _process_faults(instance: Instance) -> Iterator[str]:
