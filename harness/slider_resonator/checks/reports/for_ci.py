@@ -7,7 +7,7 @@ from xml.etree import ElementTree as ET
 
 from slider_resonator.checks.validate import RunFailure, Validation, provenance_of_all
 from slider_resonator.checks.verdict import TITLE, measure_of, place, sentence, title
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import HarnessError, explained
 from slider_resonator.fmu.provenance import Provenance, provenance_markdown, provenance_properties
 from slider_resonator.output.files import replacing
 from slider_resonator.output.json_output import to_json
@@ -122,11 +122,9 @@ def append_summary(
 ) -> None:
     """Append a table of FMUs and one of what failed; HarnessError when that is impossible."""
     text = "\n\n".join([f"## {title}", *_parts(validations, error)]) + "\n\n"
-    try:
-        with path.open("a", encoding="utf-8") as file:
-            file.write(text)
-    except OSError as failed:
-        raise HarnessError(f"{VARIABLE} {path}: cannot be written: {failed.strerror}") from failed
+    where = f"{VARIABLE} {path}: cannot be written: "
+    with explained(where, HarnessError), path.open("a", encoding="utf-8") as file:
+        file.write(text)
 
 
 def _parts(validations: Sequence[Validation], error: str) -> list[str]:
