@@ -129,38 +129,27 @@ def append_summary(
 
 def _parts(validations: Sequence[Validation], error: str) -> list[str]:
     parts = [f"Could not run: {escaped(error)}"] if error else []
-    if validations:
-        columns = numbers(
-            "checks passed", "failed", "could not be run", "not applicable", "seconds"
-        )
-        rows: list[Row] = []
-        for one in validations:
-            failed, style = len(one.failed), Style.PASS if one.passed else Style.FAIL
-            counts = (len(one.checks) - failed, failed, len(one.run_failures), len(one.not_applied))
-            seconds = f"{one.wall_time:.1f}"
-            rows.append((one.fmu, Cell(one.outcome, style), *map(str, counts), seconds))
-        parts.append(rendered(Table([*texts("FMU", "verdict"), *columns], rows)))
-    parts += [
-        escaped(f"{Path(validation.fmu).name}: {validation.without}")
-        for validation in validations
-        if validation.without
-    ]
-    skipped: list[Row] = [
-        (Path(validation.fmu).name, *row)
-        for validation in validations
-        for row in validation.inapplicable[:MAX_ROWS]
-    ]
-    if skipped:
-        columns = texts("FMU", "scene", "quantity", "not applicable because")
-        parts.append(rendered(Table(columns, skipped)))
-    failures: list[Row] = []
+    verdicts, skipped, failures = list[Row](), list[Row](), list[Row]()
+    without = []
     for one in validations:
+        name, failed = Path(one.fmu).name, len(one.failed)
+        counts = (len(one.checks) - failed, failed, len(one.run_failures), len(one.not_applied))
+        verdict = Cell(one.outcome, Style.PASS if one.passed else Style.FAIL)
+        verdicts.append((one.fmu, verdict, *map(str, counts), f"{one.wall_time:.1f}"))
+        if one.without:
+            without.append(escaped(f"{name}: {one.without}"))
+        skipped += [(name, *row) for row in one.inapplicable[:MAX_ROWS]]
         found = [(f.scene, place(f.at) or "-", f.reason) for f in one.run_failures]
         found += [(check.scene, title(check), sentence(check)) for check in one.failed]
-        failures += [(Path(one.fmu).name, *row) for row in found[:MAX_ROWS]]
+        failures += [(name, *row) for row in found[:MAX_ROWS]]
         if len(found) > MAX_ROWS:
-            failures.append((Path(one.fmu).name, "", "", f"and {len(found) - MAX_ROWS} more"))
-    if failures:
-        parts.append(rendered(Table(texts("FMU", "scene", "quantity", "verdict"), failures)))
+            failures.append((name, "", "", f"and {len(found) - MAX_ROWS} more"))
+    if verdicts:
+        counted = ("checks passed", "failed", "could not be run", "not applicable", "seconds")
+        parts.append(rendered(Table([*texts("FMU", "verdict"), *numbers(*counted)], verdicts)))
+    parts += without
+    for heading, rows in (("not applicable because", skipped), ("verdict", failures)):
+        if rows:
+            parts.append(rendered(Table(texts("FMU", "scene", "quantity", heading), rows)))
     parts.append(provenance_markdown(provenance_of_all(validations)))
     return parts
