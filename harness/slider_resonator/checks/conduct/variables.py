@@ -116,10 +116,7 @@ def _integer_faults(instance: Instance) -> Iterator[str]:
         at_once = list(instance.slave.getInteger(references))
         one_by_one = [instance.slave.getInteger([one])[0] for one in references]
         if not values == at_once == one_by_one:
-            yield (
-                f"Integers set to {values} in a call are {at_once} in a call, and {one_by_one} in "
-                "calls of their own"
-            )
+            yield f"Integers set to {values} are read as {at_once}, one by one as {one_by_one}"
 
 
 SITUATIONS: Sequence[Mapping[str, float]] = (
@@ -181,8 +178,8 @@ def _undeclared(
     before: Mapping[str, float],
     declared: Mapping[str, set[str] | None],
     when: str,
-) -> list[str]:
-    """Return the outputs that have changed with a variable on which they should not depend.
+) -> Iterator[str]:
+    """Yield the outputs that have changed with a variable on which they should not depend.
 
     Only these are read: predictions, which depend on nearly all, take long.
     """
@@ -191,9 +188,6 @@ def _undeclared(
         for output in before
         if (found := declared.get(output, set())) is not None and name not in found
     ]
-    after = instance.read(independent)
-    return [
-        f"{name} acts on {output} {when} without being declared"
-        for output in independent
-        if after[output] != before[output]
-    ]
+    for output, value in instance.read(independent).items():
+        if value != before[output]:
+            yield f"{name} acts on {output} {when} without being declared"
