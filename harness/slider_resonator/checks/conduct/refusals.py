@@ -324,7 +324,7 @@ def _before_the_run(trial: Trial) -> None:
     instance.set_up(start_time=5.0)
     instance.call("fmi2Reset")
     instance.time = 0.0
-    if not is_refused(instance.value, "load"):  # as an FMU may do before initialization mode
+    if not is_refused(instance.value, "load"):  # which may be, before initialization mode
         trial.watch()
 
     def set_up(arguments: tuple[object, ...]) -> None:
