@@ -46,11 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _builds(options: argparse.Namespace) -> Iterator[Callable[[], Path]]:
-    native = {
-        "platforms": options.platform,
-        "compiler": options.compiler,
-        "progress": _progress,
-    }
+    native = {"platforms": options.platform, "compiler": options.compiler, "progress": _progress}
     if options.only in (None, "python"):
         yield lambda: build_python(options.out)
     if options.only in (None, "native"):

@@ -16,7 +16,7 @@ version = release = slider_resonator.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 html_theme = "furo"
 html_theme_options = {
-    "announcement": '<a href="slider-resonator.html">Run the component in your browser</a>',
+    "announcement": '<a href="slider-resonator.html">Run the component in your browser</a>'
 }
 html_static_path = ["_static"]
 html_css_files = ["phone.css"]

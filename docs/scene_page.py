@@ -183,10 +183,7 @@ def _quantities() -> list[tuple[str, ...]]:
 
 
 def _needs(quantity: Quantity) -> str:
-    needs = {
-        "constants": quantity.needs_constants,
-        "[run]": quantity.needs_run,
-    }
+    needs = {"constants": quantity.needs_constants, "[run]": quantity.needs_run}
     return ", ".join(name for name, needed in needs.items() if needed)
 
 

@@ -75,11 +75,7 @@ class ParameterValues:
 
 
 def structure(
-    system: System,
-    *,
-    source: str,
-    parameters: ParameterValues,
-    connectors: bool = False,
+    system: System, *, source: str, parameters: ParameterValues, connectors: bool = False
 ) -> bytes:
     """Return the system as an .ssd document, UTF-8; equal arguments give equal bytes.
 

@@ -8,13 +8,7 @@ from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
 from fmu_src.controller.variables import VARIABLES as CONTROLLER_VARIABLES
 from fmu_src.python.slider_component.variables import VARIABLES as SLIDER_VARIABLES
-from fmu_src.system_structure import (
-    Connection,
-    ParameterValues,
-    System,
-    parameter_set,
-    structure,
-)
+from fmu_src.system_structure import Connection, ParameterValues, System, parameter_set, structure
 
 MODEL = "ClosedLoop"
 

@@ -9,25 +9,9 @@ from typing import Any
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import (
-    GUID_HEADER,
-    FmiVersion,
-    c_files,
-    guid_header,
-    slider_sources,
-)
-from fmu_src.building.compiling import (
-    Compiler,
-    compile_binaries,
-    default_compiler,
-    named_compiler,
-)
-from fmu_src.building.content import (
-    digest_of,
-    guid_of,
-    icon_and_licences,
-    reference_experiments,
-)
+from fmu_src.building.c_sources import GUID_HEADER, FmiVersion, c_files, guid_header, slider_sources
+from fmu_src.building.compiling import Compiler, compile_binaries, default_compiler, named_compiler
+from fmu_src.building.content import digest_of, guid_of, icon_and_licences, reference_experiments
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.building.platforms import HOST, Platform, host_platform, platforms_named
 from fmu_src.building.web_page import NAME as PAGE
@@ -72,12 +56,7 @@ def build_native(
     """Build the native slider, from other C sources if `code` is given; see `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
     model = NativeModel(
-        MODEL,
-        code or slider_sources(),
-        about,
-        "page.html",
-        takes_derivatives=True,
-        is_slider=True,
+        MODEL, code or slider_sources(), about, "page.html", takes_derivatives=True, is_slider=True
     )
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 

@@ -13,12 +13,7 @@ from pathlib import Path
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.content import (
-    digest_of,
-    guid_of,
-    icon_and_licences,
-    reference_experiments,
-)
+from fmu_src.building.content import digest_of, guid_of, icon_and_licences, reference_experiments
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.documentation import documentation_page
 from fmu_src.model_description import model_description

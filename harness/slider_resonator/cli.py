@@ -176,8 +176,7 @@ def _report(error: BaseException) -> str:
 
 
 @click.group(
-    cls=HarnessGroup,
-    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
+    cls=HarnessGroup, context_settings={"help_option_names": ["-h", "--help"], "show_default": True}
 )
 @click.version_option(__version__, prog_name="slider-resonator")
 @click.option(

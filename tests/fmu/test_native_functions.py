@@ -129,8 +129,7 @@ def test_a_reset_forgets_the_status_of_the_last_step(instance: Instance) -> None
 
 
 @pytest.mark.parametrize(
-    ("function", "known"),
-    {"": 0, "Real": 2, "Boolean": 3, "Integer": None, "String": None}.items(),
+    ("function", "known"), {"": 0, "Real": 2, "Boolean": 3, "Integer": None, "String": None}.items()
 )
 def test_a_status_that_is_not_known_is_discarded(
     instance: Instance, function: str, known: int | None

@@ -6,15 +6,7 @@ import pytest
 
 from studies.hosts.compiler import SOURCES
 from tests.native.scripts import CHOICES, devices, script
-from tests.native.toolchain import (
-    FAULT,
-    PROGRAMS,
-    Binary,
-    needed,
-    program,
-    run,
-    sanitized_binary,
-)
+from tests.native.toolchain import FAULT, PROGRAMS, Binary, needed, program, run, sanitized_binary
 
 pytestmark = pytest.mark.interop
 

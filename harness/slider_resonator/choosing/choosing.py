@@ -45,10 +45,7 @@ TIME_LIMIT = 600.0
 
 
 def choose(
-    scene: Scene,
-    fmu: str | Path,
-    time_limit: float = TIME_LIMIT,
-    progress: Progress = no_progress,
+    scene: Scene, fmu: str | Path, time_limit: float = TIME_LIMIT, progress: Progress = no_progress
 ) -> Choice:
     """Return the cheapest model, tolerance and communication step that the scene's needs allow.
 

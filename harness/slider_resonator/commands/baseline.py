@@ -48,11 +48,7 @@ def baseline_command() -> None:
 @click.option("--replace", is_flag=True, help="Replace scenes that are already recorded.")
 @limited
 def record_command(
-    fmu: Path,
-    folder: Path,
-    scenes: tuple[str, ...],
-    replace: bool,
-    time_limit: float,
+    fmu: Path, folder: Path, scenes: tuple[str, ...], replace: bool, time_limit: float
 ) -> int:
     """Record scenes, by default all built-in ones that apply to the FMU.
 

@@ -63,11 +63,7 @@ def _search_command(
     @options.time_limit_option(TIME_LIMIT, "For the whole search.")
     @options.json_option
     def command(
-        fmu: Path,
-        given: options.Given,
-        max_denominator: int,
-        time_limit: float,
-        as_json: bool,
+        fmu: Path, given: options.Given, max_denominator: int, time_limit: float, as_json: bool
     ) -> int:
         if find is find_blocking:
             refuse_load(given.values)

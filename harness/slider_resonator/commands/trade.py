@@ -43,9 +43,7 @@ TABLES = ("index.html", "trade.csv", "omissions.csv")
     "same again for repeats.",
 )
 @click.option(
-    "--periods",
-    type=click.IntRange(min=1),
-    help="Shorten runs to this many drive periods.",
+    "--periods", type=click.IntRange(min=1), help="Shorten runs to this many drive periods."
 )
 @click.option(
     "--picture",

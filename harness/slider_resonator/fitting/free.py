@@ -53,9 +53,7 @@ class Free:
 
 
 def free_parameters(
-    names: Sequence[str],
-    parameters: Mapping[str, float],
-    bounds: Mapping[str, Any],
+    names: Sequence[str], parameters: Mapping[str, float], bounds: Mapping[str, Any]
 ) -> tuple[Free, ...]:
     """Return the parameters to estimate, from those of the device.
 

@@ -97,11 +97,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 def write_csv(
-    path: Path,
-    header: Iterable[str],
-    rows: Iterable[Iterable[Any]],
-    *,
-    quotes_text: bool = False,
+    path: Path, header: Iterable[str], rows: Iterable[Iterable[Any]], *, quotes_text: bool = False
 ) -> None:
     """Write a CSV file in one piece; HarnessError when it cannot be written."""
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:

@@ -56,10 +56,7 @@ class _Candidate:
 
 
 def proved_predictions(
-    instance: Instance,
-    quantity: str,
-    points: Sequence[Mapping[str, float]],
-    max_denominator: int,
+    instance: Instance, quantity: str, points: Sequence[Mapping[str, float]], max_denominator: int
 ) -> list[float | None]:
     """Return the steady velocities or blocking forces that the FMU predicts at points.
 

@@ -17,13 +17,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import Provenance, provenance_html
-from slider_resonator.output.hover_plot import (
-    Axis,
-    HoverPlot,
-    Series,
-    look,
-    plot_html,
-)
+from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, look, plot_html
 from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import Drawn, Picture, drawn, style

@@ -10,13 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from slider_resonator.fmu.provenance import Provenance, provenance_html
-from slider_resonator.output.hover_plot import (
-    Axis,
-    HoverPlot,
-    Series,
-    look,
-    plot_html,
-)
+from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, look, plot_html
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import save, style

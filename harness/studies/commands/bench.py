@@ -5,11 +5,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    fmu_argument,
-    json_option,
-    time_limit_option,
-)
+from slider_resonator.commands.options import fmu_argument, json_option, time_limit_option
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu

@@ -5,12 +5,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    fmu_argument,
-    json_option,
-    target,
-    time_limit_option,
-)
+from slider_resonator.commands.options import fmu_argument, json_option, target, time_limit_option
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size

@@ -21,10 +21,7 @@ STRENGTH = 1.0
 FREQUENCIES = (10.0, 1000.0)
 STIFFNESS = 100.0
 POINTS = {10.0: 320, 1000.0: 64}
-SHOWN = {
-    10.0: (5, 1, "average + fast part"),
-    1000.0: (2, 16, "average, no fast part drawn"),
-}
+SHOWN = {10.0: (5, 1, "average + fast part"), 1000.0: (2, 16, "average, no fast part drawn")}
 """By frequency every how many points have a marker, the line's points, and what the line is."""
 LAWS = ("Coulomb", "LuGre")
 

@@ -11,12 +11,7 @@ import pytest
 from fmpy import extract, simulate_fmu
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import (
-    FmiVersion,
-    controller_sources,
-    slider_sources,
-    write_sources,
-)
+from fmu_src.building.c_sources import FmiVersion, controller_sources, slider_sources, write_sources
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform

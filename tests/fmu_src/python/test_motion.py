@@ -16,12 +16,7 @@ from fmu_src.python.slider_component.contact import (
     VibratingLoad,
 )
 from fmu_src.python.slider_component.device import Device, Oscillator, System
-from fmu_src.python.slider_component.mean_friction import (
-    MAX_WAVES,
-    NODES,
-    MeanFriction,
-    fejer,
-)
+from fmu_src.python.slider_component.mean_friction import MAX_WAVES, NODES, MeanFriction, fejer
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.segment import ClosedForm, Series

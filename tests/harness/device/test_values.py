@@ -31,11 +31,7 @@ from slider_resonator.fmu.opening import Fmu
         ("tolerance", 0.1, "tolerance = 0.1: must be a finite number from 1e-14 to 0.01"),
         ("drive_frequency", "20 khz", "unknown unit 'khz'"),
         ("slider_mass", "50 gr", "slider_mass = '50 gr': must be a number in kg, or"),
-        (
-            "load",
-            "9**9**9 N",
-            "load = '9**9**9 N': must be a number in N, or a text with a unit",
-        ),
+        ("load", "9**9**9 N", "load = '9**9**9 N': must be a number in N, or a text with a unit"),
         ("load", "", "load = '': must be a number in N, or a text with a unit such as '200 mN'"),
         ("load", "1 N^2", "load = '1 N^2': not in N"),
         ("load", "__import__('os')", "such as '200 mN'"),

@@ -11,11 +11,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import device_average
 from slider_resonator.references.averaged.uniform_average import LugreCase
-from slider_resonator.steady.periodic import (
-    FIRM,
-    FmuPeriodMap,
-    repeating_periods,
-)
+from slider_resonator.steady.periodic import FIRM, FmuPeriodMap, repeating_periods
 from slider_resonator.steady.reference_steady import ReferenceMotion
 from slider_resonator.steady.searches import find_blocking, find_steady
 from slider_resonator.steady.shooting import blocked_point

@@ -27,10 +27,7 @@ def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(others: Arguments, tmp_path: 
 
 
 def test_a_host_that_fails_is_a_verdict(
-    native_fmu: Path,
-    others: Arguments,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
+    native_fmu: Path, others: Arguments, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv("CC", str(tmp_path / "no compiler"))
     monkeypatch.setattr("studies.hosts.hosts.compiler_version", lambda _: "none")

@@ -10,12 +10,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
 from slider_resonator.arrays import is_same
-from slider_resonator.checks.conduct.findings import (
-    SMOOTH,
-    UNKNOWN,
-    is_refused,
-    other_value,
-)
+from slider_resonator.checks.conduct.findings import SMOOTH, UNKNOWN, is_refused, other_value
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.replays import Replay, Rows
 from slider_resonator.checks.fmu_side import FmuSide

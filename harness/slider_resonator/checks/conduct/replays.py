@@ -8,12 +8,7 @@ from functools import partial
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import (
-    CHOSEN,
-    other_value,
-    outputs_after,
-    unequal,
-)
+from slider_resonator.checks.conduct.findings import CHOSEN, other_value, outputs_after, unequal
 from slider_resonator.checks.conduct.output_derivatives import (
     derivative_faults,
     read_derivatives,

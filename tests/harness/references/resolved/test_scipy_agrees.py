@@ -88,8 +88,7 @@ def by_scipy(device: Device, held: Sequence[HeldInputs], times: Array) -> Trajec
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=() if n.startswith(QUICK) else pytest.mark.slow) for n in CASES],
+    "name", [pytest.param(n, marks=() if n.startswith(QUICK) else pytest.mark.slow) for n in CASES]
 )
 def test_scipy_agrees(name: str) -> None:
     device, held, allowed = CASES[name]
