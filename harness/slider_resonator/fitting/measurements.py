@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INTEGERS, VARIABLES
 from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.signal import constant
 from slider_resonator.device.variable import Variable
 from slider_resonator.errors import HarnessError
 
@@ -149,12 +151,18 @@ class Measurements:
                 )
 
     def under(self, inputs: Mapping[str, float]) -> "Measurements":
-        """Return the same with inputs of the steady points that do not say them."""
+        """Return the same with inputs of the steady points and runs that do not say them."""
         points = (
             one if "time" in one.values else replace(one, values={**inputs, **one.values})
             for one in self.points
         )
-        return replace(self, points=tuple(points))
+        held = {name: constant(value) for name, value in inputs.items()}
+        tuning = {name: held.pop(name) for name in DEVIATIONS if name in held}
+        runs = {
+            source: replace(run, signals={**held, **run.signals}, tuning={**tuning, **run.tuning})
+            for source, run in self.runs.items()
+        }
+        return replace(self, points=tuple(points), runs=runs)
 
     def __add__(self, other: "Measurements") -> "Measurements":
         """Return both together."""

@@ -136,6 +136,18 @@ def test_a_run_is_fitted_over_time(instance: Instance, first: int) -> None:
     assert ["begins at 75 ms" in note for note in found.notes] == [True] * (first > 0)
 
 
+def test_set_inputs_act_on_a_run_that_does_not_say_them(instance: Instance) -> None:
+    """On its own columns they do not."""
+    columns = {"time": np.linspace(0.0, 0.2, 81), "load": np.full(81, 0.01)}
+    inputs = {"phase": 0.4, "amplitude_deviation": 0.1}
+    said = columns | {name: np.full(81, value) for name, value in inputs.items()}
+    outputs = recorded(instance, TRUE, said, {"velocity": 0.0})
+    known = {**TRUE, **inputs, "load": 0.5, "damping_ratio": 0.1}
+    data = measurements_of(columns | outputs)
+    (damping,) = fitted(instance, data, ["damping_ratio"], parameters=known, starts=1).parameters
+    assert damping.value == pytest.approx(TRUE["damping_ratio"], rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("run_noise", "points"), [(5e-7, POINTS * 2), (5e-5, POINTS * 2), (5e-5, POINTS[:4])]
 )
