@@ -26,14 +26,7 @@ from slider_resonator.fitting.estimation import (
 )
 from slider_resonator.fitting.free import free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, points_between
-from slider_resonator.fitting.notes import (
-    SUPPOSITIONS,
-    data_notes,
-    friction_notes,
-    misfit_notes,
-    miss_notes,
-    missed_quantities,
-)
+from slider_resonator.fitting.notes import data_notes, misfit_notes, miss_notes, missed_quantities
 from slider_resonator.fitting.result import AS_STATED, Fit, FittedParameter
 from slider_resonator.fmu.isolation.process import FmuDied, Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
@@ -102,11 +95,7 @@ def fit(
     fitted = _estimates(best, unit if is_near else 0.0, left_open, run)
     off = np.abs(predicted - measurements.measured)
     unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
-    device = Device.from_mapping(found)
-    if "friction_coefficient" in {one.name for one in free} - left_open:
-        notes += friction_notes(device)
-    if missed:
-        notes += miss_notes(measurements, missed, _supposed(problem, run))
+    notes += miss_notes(measurements, missed)
     if not is_near:
         notes.append(NO_INTERVALS)
     if spare:
@@ -120,7 +109,7 @@ def fit(
             notes.append("no other start led to this minimum: try more (--starts), or bounds")
     return Fit(
         fitted,
-        device,
+        Device.from_mapping(found),
         tuple(directions),
         correlation=best.correlation,
         measured=measurements.measured,
@@ -160,24 +149,6 @@ def _problem(
             f"{number_of(len(free), 'free parameter')}; must be at least as many"
         )
     return Problem(parameters, free, measurements.under(inputs))
-
-
-def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
-    """Return what the device before the fit predicts, as `miss_notes` has it; {} if it fails."""
-    start = problem.values(problem.start)
-    data = problem.measurements
-    meant = {"": data}
-    for what, (name, factor) in SUPPOSITIONS.items() if data.steady else ():
-        points = (
-            replace(one, values={**one.values, name: factor * one.values.get(name, 0.0)})
-            for one in data.points
-        )
-        meant[what] = replace(data, points=tuple(points))
-    tasks = [partial(predict, parameters=start, measurements=one) for one in meant.values()]
-    try:
-        return dict(zip(meant, run("supposing", tasks), strict=True))
-    except FmuError:
-        return {}
 
 
 def _between(

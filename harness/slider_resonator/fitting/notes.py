@@ -1,14 +1,12 @@
 """What a report notes about measurements and their residuals."""
 
 from collections.abc import Mapping
-from math import log10, pi
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, stdtrit
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.device import Device
 from slider_resonator.fitting.estimation import NOTHING
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.scenes.device_file import possible_slips
@@ -25,15 +23,6 @@ MAX_NAMED = 5
 """Number of outliers that are named."""
 MISSED = 0.5
 """Root mean square of residuals over that of the quantity from which the fit is not near it."""
-SUPPOSITIONS = {
-    "phase in rad": ("phase", 180.0 / pi),
-    "phase in deg": ("phase", pi / 180.0),
-    "the other sign of phase": ("phase", -1.0),
-    "the other sign of load": ("load", -1.0),
-}
-"""What may be meant by settings: the name of one, and the factor from what was read."""
-LOW_FRICTION, HIGH_FRICTION = 0.01, 1.5
-"""Coefficients between which dry friction mostly is."""
 
 
 def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> list[str]:
@@ -57,18 +46,6 @@ def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> l
     return [*measurements.notes, *slips.values(), *unsaid]
 
 
-def friction_notes(fitted: Device) -> list[str]:
-    """Return a note where friction is as in hardly any device."""
-    coefficient = fitted.friction_coefficient
-    if LOW_FRICTION <= coefficient <= HIGH_FRICTION:
-        return []
-    usual = f"above {HIGH_FRICTION:g}" if coefficient > 1.0 else f"below {LOW_FRICTION:g}"
-    return [
-        f"friction_coefficient = {coefficient:.3g} is seldom {usual}: check normal_preload, "
-        f"units and signs, and friction_faces = {fitted.friction_faces}"
-    ]
-
-
 def missed_quantities(measurements: Measurements, predicted: Array) -> dict[str, float]:
     """Return the quantities that a fit does not come near: the share that it misses, by name.
 
@@ -80,45 +57,13 @@ def missed_quantities(measurements: Measurements, predicted: Array) -> dict[str,
     return {name: share for name, share in shares if share >= MISSED}
 
 
-def miss_notes(
-    measurements: Measurements, missed: Mapping[str, float], supposed: Mapping[str, Array]
-) -> list[str]:
-    """Return a note for each of the `missed` quantities, with what would bring the device near it.
-
-    `supposed` are predictions (n,) of the device before the fit: as the data were read by the name
-    "", else by those of `SUPPOSITIONS`.
-    """
-    notes = []
-    for name, share in missed.items():
-        least, meant = MISSED, ""
-        for what, predicted in supposed.items():
-            own = (measurements.quantities == name) & np.isfinite(predicted)
-            factor, rest = _proportion(measurements.measured[own], predicted[own])
-            power = 3 * round(log10(abs(factor) or 1.0) / 3.0)
-            parts = [what] if what else []
-            if power:
-                parts.append(f"{name} in another unit (1e{power} times smaller)")
-            if factor < 0.0:
-                parts.append(f"the other sign of {name}")
-            if rest < least:  # another meaning must halve what the data miss as they were read
-                least, meant = rest if parts else 0.5 * rest, " and ".join(parts)
-        unit, _ = measurements.unit(name)
-        nearer = f"with {meant} the device before the fit is far nearer"
-        notes.append(
-            f"the fit misses {share:.0%} of {name} (rms), which was read in {unit}: "
-            + (nearer if meant else "check units and signs, and what is held")
-        )
-    return notes
-
-
-def _proportion(measured: Array, predicted: Array) -> tuple[float, float]:
-    """Return the factor from predicted to measured values by least squares, and what it misses.
-
-    The latter is a share of the measured, 1 without values.
-    """
-    factor = float(measured @ predicted) / max(float(predicted @ predicted), 1e-300)
-    size, rest = float(np.linalg.norm(measured)), measured - factor * predicted
-    return factor, float(np.linalg.norm(rest)) / size if size else 1.0
+def miss_notes(measurements: Measurements, missed: Mapping[str, float]) -> list[str]:
+    """Return a note for each of the `missed` quantities."""
+    return [
+        f"the fit misses {share:.0%} of {name} (rms), which was read in "
+        f"{measurements.unit(name)[0]}: check units and signs, and what is held"
+        for name, share in missed.items()
+    ]
 
 
 def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) -> list[str]:

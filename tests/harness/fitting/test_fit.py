@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from math import nan, pi
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -294,10 +294,9 @@ def test_systematic_residuals_are_noted(instance: Instance) -> None:
     """Friction cannot stand for damping: the residuals follow the phase."""
     points = [replace(velocity_at(0.1 * i), row=f"line {i}") for i in range(30)]
     data = measured(instance, {"damping_ratio": 0.3}, points, 0.002)
-    implausible, missed, no_intervals, note = fitted(
-        instance, data, ["friction_coefficient"], starts=1
-    ).notes
-    assert "seldom above 1.5" in implausible
+    found = fitted(instance, data, ["friction_coefficient"], starts=1)
+    assert found.parameters[0].deviation is None
+    missed, no_intervals, note = found.notes
     assert "of steady_velocity (rms)" in missed
     assert missed.endswith("check units and signs, and what is held")
     assert no_intervals == NO_INTERVALS
@@ -320,32 +319,6 @@ def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance:
     assert "are met as well, or almost, by damping_ratio = 0.0318838" in note
     other = fitted(instance, data, ["damping_ratio"], parameters={**device, "damping_ratio": 0.04})
     assert other.parameters[0].value == pytest.approx(0.0318838, rel=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("phase", "velocity", "said"),
-    [
-        (("phase", 1.0), ("velocity", 1e3), "with steady_velocity in another unit (1e3 "),
-        (("phase", 1.0), ("velocity [mm/s]", 1.0), "with steady_velocity in another unit (1e-3 "),
-        (("phase [deg]", 1.0), ("velocity", 1.0), "with phase in rad"),
-        (("phase", 180.0 / pi), ("velocity", 1.0), "with phase in deg"),
-        (("phase", -1.0), ("velocity", 1.0), "with the other sign of phase"),
-    ],
-)
-def test_data_that_were_meant_otherwise_are_noted(
-    instance: Instance, phase: tuple[str, float], velocity: tuple[str, float], said: str
-) -> None:
-    phases = np.array([-1.5, -0.8, -0.1, 0.6, 1.3])
-    points = [velocity_at(phase) for phase in phases]
-    velocities = measured(instance, {**AVERAGES, **TRUE}, points).measured
-    columns = {phase[0]: phase[1] * phases, velocity[0]: velocity[1] * velocities}
-    free, start = ["friction_coefficient"], {**AVERAGES, **TRUE, "friction_coefficient": 0.15}
-    found = fitted(instance, measurements_of(columns), free, parameters=start, starts=1)
-    assert found.parameters[0].deviation is None
-    assert NO_INTERVALS in found.notes
-    (missed,) = [one for one in found.notes if one.startswith("the fit misses")]
-    assert said in missed
-    assert missed.endswith("the device before the fit is far nearer")
 
 
 def test_stated_deviations_are_used(instance: Instance) -> None:
