@@ -252,7 +252,7 @@ def sweep(
     `grid` is a file or data of the same form; `device` has the parameters that it leaves out.
     `workers` is the number of processes, by default one for each core. `columns` of the result are
     the table. Finished points are kept beside `out` until it is written; `restart` discards them. A
-    table of another grid is replaced only with `overwrite`.
+    table that exists is replaced only with `overwrite`.
     """
     check_positive(workers=workers)
     count = workers or available_cores()

@@ -73,7 +73,7 @@ def test_scenes_are_names_files_and_data(native_fmu: Path, tmp_path: Path) -> No
     table = tmp_path / "table.csv"
     table.write_text("point,phase\n0,1.0\n")
     grid = {"measures": ["steady_velocity"], "list": {"phase": [0.0, 0.4]}}
-    with pytest.raises(sr.HarnessError, match="not a table of this grid's points"):
+    with pytest.raises(sr.HarnessError, match="exists; must be a new file"):
         sr.sweep(grid, table, native_fmu, workers=1)
     result = sr.sweep(grid, table, native_fmu, workers=1, overwrite=True)
     assert (result.points, result.failed) == (2, 0)

@@ -50,9 +50,7 @@ def _axis(name: str, first: str, last: str, count: str) -> tuple[str, dict[str, 
     multiple=True,
     help="With --over: what to compute. Repeatable.  [default: steady_velocity]",
 )
-@click.option(
-    "--out", type=options.target(SUFFIXES), required=True, help="Table to write or complete."
-)
+@click.option("--out", type=options.target(SUFFIXES), required=True, help="Table to write.")
 @click.option(
     "--plot", type=options.target(PICTURE_SUFFIXES), help="Picture of the results: lines or map."
 )
@@ -62,7 +60,7 @@ def _axis(name: str, first: str, last: str, count: str) -> tuple[str, dict[str, 
 @options.jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
 @click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
-@click.option("--overwrite", is_flag=True, help="Replace the table of another grid.")
+@click.option("--overwrite", is_flag=True, help="Replace a table that exists.")
 @options.time_limit_option(TIME_LIMIT, "For each point; one that takes longer fails.")
 @options.json_option
 def sweep_command(

@@ -4,7 +4,6 @@ The table is Parquet or CSV, the same bytes for the same rows. A journal beside 
 finished points until it is written.
 """
 
-import csv
 import hashlib
 import json
 from collections import Counter, deque
@@ -49,7 +48,6 @@ if TYPE_CHECKING:
 
 
 SUFFIXES = (".parquet", ".csv")
-REMEDY = "must be a new file, or allow it to be overwritten (--overwrite, overwrite=True)"
 BATCH = 100
 """Points whose predictions are proved in one task."""
 ATTEMPTS = 3
@@ -137,13 +135,16 @@ def run_sweep(
 
     `workers` is the number of processes here, unless `dask` is the address of a scheduler. A point
     that takes longer than `time_limit` (s) fails. Raises HarnessError where the sweep cannot be run
-    or, without `overwrite`, `out` is the table of other points, measures or results, which the
-    first point shows; finished points stay in the journal.
+    or, without `overwrite`, `out` exists; finished points stay in the journal.
     """
     check_writer(out)
     if dask is not None and find_spec("distributed") is None:
         raise HarnessError("--dask needs dask.distributed: pip install 'slider-resonator[cluster]'")
-    before = {} if overwrite else replaceable(out, sweep.task, sweep.points)
+    if out.exists() and not overwrite:
+        raise HarnessError(
+            f"{out}: exists; must be a new file, or allow it to be overwritten (--overwrite, "
+            "overwrite=True)"
+        )
     with open_fmu(fmu):
         pass  # the file is checked once, not at every point
     fmu_digest = digest_of(fmu)
@@ -155,21 +156,15 @@ def run_sweep(
     with Journal(
         out.with_name(f"{out.name}.journal"), "sweep", digest, remedy, restart=restart
     ) as journal:
-        found: list[Row] = [
-            (number, cells, error) for kept in journal.entries for number, cells, error in kept
-        ]
-        rows: dict[int, Row] = {}
+        rows: dict[int, Row] = {
+            number: (number, cells, error)
+            for kept in journal.entries
+            for number, cells, error in kept
+        }
+        found = len(rows)
 
-        def keep(new: Sequence[Row], *, is_kept: bool = False) -> None:
-            if before and new:
-                try:
-                    columns = table_columns(sweep.task, sweep.points, new)
-                    check_nothing_lost(out, before, columns)
-                except HarnessError:
-                    if not found:
-                        journal.remove()  # else the sweep that made `out` could not go on
-                    raise
-            if new and not is_kept:
+        def keep(new: Sequence[Row]) -> None:
+            if new:
                 journal.add([new])
             rows.update((row[0], row) for row in new)
             progress(f"point {len(rows)} of {len(sweep.points)}", len(rows) / len(sweep.points))
@@ -178,7 +173,7 @@ def run_sweep(
             points = f"{len(rows)} of {len(sweep.points)} points"
             return f"{points} are kept in {journal.path}; the same command goes on from there"
 
-        keep(found, is_kept=True)
+        keep([])
         left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
         if left:
             processes: AbstractContextManager[Processes]
@@ -196,7 +191,7 @@ def run_sweep(
     errors = [error for error in columns["error"] if error is not None]
     return SweepResult(
         points=len(sweep.points),
-        found=len(found),
+        found=found,
         failed=len(errors),
         unanswered=sum(
             error is None and None in values
@@ -253,59 +248,10 @@ def check_writer(path: Path) -> None:
 
 
 def table_columns(task: Task, points: Sequence[tuple[float, ...]], rows: Iterable[Row]) -> Columns:
-    """Return the columns of the table that these rows make, some or all of the points."""
+    """Return the columns of the table that these rows make."""
     lines = ((number, *points[number], *cells, error) for number, cells, error in rows)
     columns = zip(task.columns, zip(*lines, strict=True), strict=True)
     return {name: [*map(int, one)] if kind is int else [*one] for (name, kind), one in columns}
-
-
-def replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> Columns:
-    """Return the columns of the table that a file is, none where there is no file.
-
-    Raises HarnessError for a file that is no table of these points, or has other measures.
-    """
-    if not path.exists():
-        return {}
-    try:
-        columns = _read(path)
-        found = [[float(value) for value in columns[name]] for name in ("point", *task.names)]
-    except (OSError, ValueError, LookupError, TypeError, NotImplementedError, csv.Error):
-        found = []
-    if not found or list(zip(*found, strict=True)) != [
-        (float(number), *point) for number, point in enumerate(points)
-    ]:
-        raise HarnessError(f"{path}: is not a table of this grid's points; {REMEDY}")
-    lost = [name for name in columns if name not in dict(task.columns)]
-    if lost:
-        raise HarnessError(
-            f"{path}: has columns that this grid does not measure: {', '.join(lost)}; {REMEDY}"
-        )
-    return columns
-
-
-def _read(path: Path) -> Columns:
-    if path.suffix.lower() != ".csv":
-        from pyarrow import parquet
-
-        return dict(parquet.read_table(path).to_pydict())
-    with path.open(encoding="utf-8", newline="") as file:
-        names, *rows = csv.reader(file, strict=True)
-    return dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
-
-
-def check_nothing_lost(path: Path, before: Columns, now: Columns) -> None:
-    """Raise HarnessError where the table at `path`, of columns `before`, has other results.
-
-    `now` are some rows of the table to be. They can be of another device: a table does not tell.
-    """
-    for name in [name for name in now if name in before and name != "error"]:
-        for point, value in zip(now["point"], now[name], strict=True):
-            old = before[name][point]
-            if old not in (None, "", value, str(value)):
-                raise HarnessError(
-                    f"{path}: has {name} = {old} at point {point}, now {value}, of another device, "
-                    f"FMU or version; {REMEDY}"
-                )
 
 
 def write_table(path: Path, task: Task, columns: Columns) -> None:

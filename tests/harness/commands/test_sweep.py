@@ -26,7 +26,7 @@ def test_a_grid_is_computed_written_and_summed_up(native_fmu: Path, tmp_path: Pa
     names = "load,friction_coefficient,steady_velocity,steady_velocity_status"
     assert head == f"point,{names},error"
     assert float(first.split(",")[3]) == pytest.approx(0.111335, abs=1e-6)
-    printed = call(*arguments, "--plot", plot, "--html", html).stdout
+    printed = call(*arguments, "--overwrite", "--plot", plot, "--html", html).stdout
     for line in (
         "points     3",
         "no answer  to a measure at 1 point: load_above_friction (1)",
