@@ -35,22 +35,8 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
     The core scenes are situations that an engineer knows. The thorough ones are for faults that
     hide; --all and --json list them, too, and validate runs both.
 
-    The command run takes scenes with a length, in simulated seconds; validate takes all. Every
-    key of a scene file is in docs/scenes.md.
-
-    \b
-    The tables of a scene file, of which only name and title are needed:
-      name, title, description, expect_bundles
-      [device]    parameters that differ from table 1
-      [inputs]    phase, load, frequency_ratio: a number, steps, ramp or csv
-      [tuning]    tunable parameters that change in the run, as inputs do
-      [run]       stop_time or drive_periods; step_size,
-                  steps_per_period or step_sizes; start_time, read_twice
-      [[expect]]  quantity; reference, value, at_most or at_least;
-                  relative, absolute, tube; why
-      [sweep]     variable, values
-      [need]      accuracy that the command choose meets
-      [[variant]] scenes that differ in some keys: a file of several
+    The command run takes scenes with a length, in simulated seconds; validate takes all. --template
+    prints a commented scene; every key of a scene file is in docs/scenes.md.
 
     \b
     Examples:
