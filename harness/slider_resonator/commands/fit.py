@@ -133,8 +133,7 @@ def fit_command(
         )
     title = f"Fit to {', '.join(one.name for one in data) or 'a datasheet'}"
     written = [] if out is None else write_report(found, out, title, provenance)
-    hidden = ("measurements", "between")
-    document = {key: value for key, value in vars(found).items() if key not in hidden}
+    document = {key: value for key, value in vars(found).items() if key != "measurements"}
     document["written"] = written
     lines = found.sentences()
     if written:

@@ -22,17 +22,12 @@ from slider_resonator.steady.searches import SEARCHES
 
 
 def predict(
-    instance: Instance,
-    parameters: Mapping[str, float],
-    measurements: Measurements,
-    *,
-    searches: bool = True,
+    instance: Instance, parameters: Mapping[str, float], measurements: Measurements
 ) -> Array:
     """Return the numbers of the FMU at the points of the measurements, shape (n,).
 
-    A steady quantity is the FMU's output where that is valid, else it is found by shooting, if that
-    `searches`; where no such motion is found it is NaN. Raises FmuError and Refusal as
-    `Instance.start` does.
+    A steady quantity is the FMU's output where that is valid, else it is found by shooting; where
+    no such motion is found it is NaN. Raises FmuError and Refusal as `Instance.start` does.
     """
     points, series = measurements.points, measurements.series
     found, runs = np.empty(len(points)), {}
@@ -44,14 +39,11 @@ def predict(
             times = measurements.runs[source].times
             found[rows] = runs[source][name][np.searchsorted(times, measurements.times[rows])]
         else:
-            steady = (_steady(instance, parameters, points[row], searches) for row in rows.tolist())
-            found[rows] = list(steady)
+            found[rows] = [_steady(instance, parameters, points[row]) for row in rows.tolist()]
     return found
 
 
-def _steady(
-    instance: Instance, parameters: Mapping[str, float], point: Point, searches: bool
-) -> float:
+def _steady(instance: Instance, parameters: Mapping[str, float], point: Point) -> float:
     """Return a steady quantity, as `predict` does."""
     values = {**parameters, **point.values}
     known = [name for name in ("prediction_valid", point.quantity) if name in instance.fmu.outputs]
@@ -60,7 +52,7 @@ def _steady(
         read = instance.read(known)
     if read.get("prediction_valid") == 1.0:
         return read[point.quantity]
-    found = SEARCHES[point.quantity](instance, values).value if searches else None
+    found = SEARCHES[point.quantity](instance, values).value
     return nan if found is None else found
 
 

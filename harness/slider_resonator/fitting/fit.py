@@ -2,9 +2,8 @@
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from functools import partial
-from math import inf, isfinite
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +24,7 @@ from slider_resonator.fitting.estimation import (
     search,
 )
 from slider_resonator.fitting.free import free_parameters
-from slider_resonator.fitting.measurements import Measurements, Point, points_between
+from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.fitting.notes import data_notes, misfit_notes, miss_notes, missed_quantities
 from slider_resonator.fitting.result import AS_STATED, Fit, FittedParameter
 from slider_resonator.fmu.isolation.process import FmuDied, Task
@@ -122,7 +121,6 @@ def fit(
         measurements=measurements,
         unmet=tuple(unmet),
         notes=tuple(notes),
-        between=_between(measurements, found, run),
     )
 
 
@@ -149,20 +147,6 @@ def _problem(
             f"{number_of(len(free), 'free parameter')}; must be at least as many"
         )
     return Problem(parameters, free, measurements.under(inputs))
-
-
-def _between(
-    measurements: Measurements, parameters: Mapping[str, float], run: Runner
-) -> tuple[Point, ...]:
-    """Return predictions between the measured points, where the FMU has some without a search."""
-    curves = Measurements(tuple(points_between(measurements.steady)))
-    task = partial(predict, parameters=parameters, measurements=curves, searches=False)
-    try:
-        (found,) = run("drawing", [task])
-    except FmuError:
-        return ()
-    drawn = zip(curves.points, found.tolist(), strict=True)
-    return tuple(replace(point, measured=one) for point, one in drawn if isfinite(one))
 
 
 def _estimates(

@@ -9,7 +9,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.fitting.estimation import OpenDirection
-from slider_resonator.fitting.measurements import Measurements, Point
+from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
 
@@ -68,8 +68,7 @@ class Fit(Shown, Tabular, Drawable):
     deviation of these as the fit shows it, 1 if all is as stated, None with as many parameters as
     numbers. `correlation` is that of the estimates, (p, p). `starts_agreeing` of `starts` led to
     the same minimum. `unmet` are the indices of numbers that as many parameters do not reach,
-    `notes` what is odd about the data and their residuals. `between` are points between those
-    measured, with what the fit predicts.
+    `notes` what is odd about the data and their residuals.
     """
 
     parameters: tuple[FittedParameter, ...]
@@ -86,7 +85,6 @@ class Fit(Shown, Tabular, Drawable):
     measurements: Measurements
     unmet: tuple[int, ...] = ()
     notes: tuple[str, ...] = ()
-    between: tuple[Point, ...] = ()
 
     def table(self) -> dict[str, list[Any]]:
         """Return the estimates in columns, those that the data leave open as None."""
@@ -103,7 +101,7 @@ class Fit(Shown, Tabular, Drawable):
         from slider_resonator.fitting.picture import fit_figure
 
         numbers = np.array([self.measured, self.predicted, self.residuals])
-        return fit_figure(self.measurements.points, numbers, self.between)
+        return fit_figure(self.measurements.points, numbers)
 
     def describe(self) -> list[str]:
         """Return the estimates with their intervals, and what there is to say of them."""

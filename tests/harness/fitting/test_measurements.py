@@ -6,7 +6,7 @@ import pytest
 
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
-from slider_resonator.fitting.measurements import Measurements, Point, points_between
+from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.fitting.notes import data_notes
 from slider_resonator.fitting.reading import measurements_of, read_measurements
 from tests.harness.golden import assert_mistakes_as_before
@@ -127,15 +127,6 @@ def test_bad_data_are_explained(tmp_path: Path) -> None:
     assert_mistakes_as_before("data_mistakes.txt", tmp_path / "data.csv", read_measurements)
     with pytest.raises(HarnessError, match=r"one of .*steady_velocity, tangential_force, time, "):
         read(tmp_path, "phase,velocty\n0,1\n")
-
-
-def test_points_between_others_need_few_curves_over_a_continuous_variable() -> None:
-    faces = [Point({"friction_faces": n}, "steady_velocity", 0.0) for n in (1, 2)]
-    sine = [Point({"phase": phase}, "steady_velocity", 0.0) for phase in (0.1, 0.2, 0.2)]
-    many = [Point({"phase": n, "load": n}, "steady_velocity", 0.0) for n in range(20)]
-    assert len(points_between(sine)) == 200
-    for points in (sine[1:], faces, many):
-        assert not points_between(points)
 
 
 def test_data_that_leave_doubts_are_noted() -> None:
