@@ -25,7 +25,7 @@ from slider_resonator.fitting.estimation import (
 )
 from slider_resonator.fitting.free import free_parameters
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.notes import data_notes, misfit_notes, miss_notes, missed_quantities
+from slider_resonator.fitting.notes import data_notes, misfit_notes, miss_notes
 from slider_resonator.fitting.result import AS_STATED, Fit, FittedParameter
 from slider_resonator.fmu.isolation.process import FmuDied, Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
@@ -89,12 +89,12 @@ def fit(
     left_open = {name for one in directions for name in one.factors}
     found = problem.values(best.internal)
     (predicted,) = run("comparing", [partial(predict, parameters=found, measurements=measurements)])
-    missed = {} if is_as_stated else missed_quantities(measurements, predicted)
-    is_near = len(missed) < len({*measurements.quantities.tolist()})
+    misses = [] if is_as_stated else miss_notes(measurements, predicted)
+    is_near = len(misses) < len({*measurements.quantities.tolist()})
     fitted = _estimates(best, unit if is_near else 0.0, left_open, run)
     off = np.abs(predicted - measurements.measured)
     unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
-    notes += miss_notes(measurements, missed)
+    notes += misses
     if not is_near:
         notes.append(NO_INTERVALS)
     if spare:

@@ -41,15 +41,13 @@ class Measurements:
     """All that is measured: `points`, and schedules of `runs` by their source.
 
     `noise` is what each number errs by without stated deviations, (n,) or one for all, in root mean
-    squares of the quantity and up to a common factor. `units` are those of headings,
-    by name: text and factor to the SI unit. `plain_numbers` are source, name and value of
+    squares of the quantity and up to a common factor. `plain_numbers` are source, name and value of
     frequencies and phases without a unit. `notes` say what was done in reading.
     """
 
     points: tuple[Point, ...] = ()
     runs: Mapping[str, Schedule] = field(default_factory=dict)
     noise: Array | float = 1.0
-    units: Mapping[str, tuple[str, float]] = field(default_factory=dict)
     plain_numbers: tuple[tuple[str, str, float], ...] = ()
     notes: tuple[str, ...] = ()
 
@@ -72,15 +70,6 @@ class Measurements:
     def quantities(self) -> NDArray[np.str_]:
         """The quantity of each number, shape (n,)."""
         return np.array([one.quantity for one in self.points], np.str_)
-
-    def unit(self, name: str) -> tuple[str, float]:
-        """Return the unit of the data, or else the SI unit, and the factor to the latter."""
-        return self.units.get(name, (VARIABLES[name].unit, 1.0))
-
-    def shown(self, quantity: str, value: float) -> str:
-        """Return a value in the unit of the data, or else in its SI unit."""
-        unit, factor = self.unit(quantity)
-        return f"{value / factor:.3g} {unit}"
 
     @property
     def knows_deviations(self) -> bool:
@@ -165,7 +154,6 @@ class Measurements:
         return Measurements(
             self.points + other.points,
             {**self.runs, **other.runs},
-            units={**other.units, **self.units},
             plain_numbers=self.plain_numbers + other.plain_numbers,
             notes=self.notes + other.notes,
         )
@@ -192,6 +180,11 @@ def datasheet(
 def variable(name: str) -> Variable:
     """Return the variable that a column sets or measures; `time` is one like `last_event_time`."""
     return VARIABLES["last_event_time" if name == "time" else name]
+
+
+def shown(quantity: str, value: float) -> str:
+    """Return a measured value (SI) in the unit that engineers state it in, in three digits."""
+    return VARIABLES[quantity].shown(float(f"{value:.3g}"))
 
 
 def set_value(point: Point, name: str) -> float:

@@ -8,7 +8,7 @@ from scipy.special import ndtr, stdtrit
 
 from slider_resonator.arrays import Array
 from slider_resonator.fitting.estimation import NOTHING
-from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.measurements import Measurements, shown
 from slider_resonator.scenes.device_file import possible_slips
 
 OUTLIER_LEVEL = 0.005
@@ -46,23 +46,19 @@ def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> l
     return [*measurements.notes, *slips.values(), *unsaid]
 
 
-def missed_quantities(measurements: Measurements, predicted: Array) -> dict[str, float]:
-    """Return the quantities that a fit does not come near: the share that it misses, by name.
+def miss_notes(measurements: Measurements, predicted: Array) -> list[str]:
+    """Return a note for each quantity that a fit does not come near.
 
-    It is the root mean square of the residuals over that of the quantity; `predicted` has shape
-    (n,), NaN where there is no motion.
+    `predicted` has shape (n,), NaN where there is no motion.
     """
-    misses = (predicted - measurements.measured) / measurements.sizes
-    shares = measurements.root_mean_squares(misses)
-    return {name: share for name, share in shares if share >= MISSED}
-
-
-def miss_notes(measurements: Measurements, missed: Mapping[str, float]) -> list[str]:
-    """Return a note for each of the `missed` quantities."""
+    measured = measurements.measured
+    sizes = dict(measurements.root_mean_squares(measured))
+    shares = measurements.root_mean_squares((predicted - measured) / measurements.sizes)
     return [
-        f"the fit misses {share:.0%} of {name} (rms), which was read in "
-        f"{measurements.unit(name)[0]}: check units and signs, and what is held"
-        for name, share in missed.items()
+        f"the fit misses {share:.0%} of {name}, {shown(name, sizes[name])} (rms): check units and "
+        "signs, and what is held"
+        for name, share in shares
+        if share >= MISSED
     ]
 
 
@@ -81,7 +77,7 @@ def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) 
         rows = own[np.isfinite(weighted[own])]
         found = rows[outlying(weighted[rows], jacobian[rows], OUTLIER_LEVEL / len(series))]
         for index in found[is_seen[found]].tolist():
-            number, fit = (measurements.shown(quantity, x[index]) for x in (measured, predicted))
+            number, fit = (shown(quantity, float(x[index])) for x in (measured, predicted))
             outliers.append(f"{source} {points[index].row}: {quantity} {number}, fit {fit}")
         rows = rows[is_seen[rows]]
         if len(rows) < 2:

@@ -102,7 +102,7 @@ def _measurements(
     settable = [*INPUTS, *(HELD if is_run else PARAMETERS), "time"]
     names = [*settable, *outputs]
     values: dict[str, Array] = {}
-    units: dict[str, tuple[str, float]] = {}
+    plain = set[str]()
     ignored = []
     for heading, cells in columns:
         what, std = _parts(heading, aliases)
@@ -120,8 +120,8 @@ def _measurements(
             raise ValueError(f"two columns {name}; must be one")
         with explained("heading ", ValueError):
             factor = heading_factor(heading, variable(what).unit)
-        if unit := split_heading(heading)[1]:
-            units[name] = (unit, factor)
+        if not split_heading(heading)[1]:
+            plain.add(name)
         values[name] = _numbers(heading, rows, cells, factor)
     measured = {name: column for name, column in values.items() if name in outputs}
     if not measured:
@@ -145,17 +145,16 @@ def _measurements(
             f"begins at {variable('time').shown(schedule.times[1])}; the device starts at time 0 "
             "in its initial state, at drive phase 0, and has the inputs of the first row until then"
         )
-    plain = [
+    plain_numbers = [
         (source, name, value)
         for name in IN_ANOTHER_UNIT
-        if name in values and name not in units
+        if name in plain
         for value in dict.fromkeys(values[name].tolist())
     ]
     return Measurements(
         points,
         {} if schedule is None else {source: schedule},
-        units=units,
-        plain_numbers=tuple(plain),
+        plain_numbers=tuple(plain_numbers),
         notes=tuple(f"{source}: {note}" for note in notes),
     )
 

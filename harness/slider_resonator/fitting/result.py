@@ -9,7 +9,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.fitting.estimation import OpenDirection
-from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.measurements import Measurements, shown
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
 
@@ -129,7 +129,6 @@ class Fit(Shown, Tabular, Drawable):
                 f"residuals have {self.scale:.3g} times the stated standard deviation"
                 f"{odd if self.scale > AS_STATED else ''}"
             )
-        shown = self.measurements.shown
         for index in self.unmet:
             one = self.measurements.points[index]
             name, reached = one.quantity, self.predicted[index]

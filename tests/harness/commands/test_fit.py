@@ -63,7 +63,7 @@ def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
     ("datasheet", "code", "text"),
     [
         ("--velocity=5 m/s", 1, "must be 5 m/s, the nearest found is"),
-        ("--velocity-at=1 N=10 mm/s", 1, "must be 0.01 m/s, but no steady motion was found"),
+        ("--velocity-at=1 N=10 mm/s", 1, "must be 10 mm/s, but no steady motion was found"),
         ("--blocking=2 N", 0, "as many parameters as numbers: solved, without intervals"),
     ],
 )

@@ -284,7 +284,7 @@ def test_systematic_residuals_are_noted(instance: Instance) -> None:
     found = fitted(instance, data, ["friction_coefficient"], starts=1)
     assert found.parameters[0].deviation is None
     missed, no_intervals, note = found.notes
-    assert "of steady_velocity (rms)" in missed
+    assert "of steady_velocity, 31.6 mm/s (rms)" in missed
     assert missed.endswith("check units and signs, and what is held")
     assert no_intervals == NO_INTERVALS
     assert "residuals of steady_velocity are systematic" in note
