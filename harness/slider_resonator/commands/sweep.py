@@ -126,12 +126,9 @@ def sweep_command(
         sweep = replace(sweep, title=device.title)
     if plot is not None or html is not None:
         # Imported here: drawing takes longer to load than many sweeps to run.
-        from slider_resonator.sweeping.picture import check_page, check_picture, write_sweep_page
+        from slider_resonator.sweeping.picture import check_picture, write_sweep_page
 
-        if plot is not None:
-            check_picture(sweep, "--plot")
-        if html is not None:
-            check_page(sweep, "--html")
+        check_picture(sweep, "--html" if plot is None else "--plot")
     provenance = provenance_of(fmu)
     with progress_bar() as progress:
         result = run_sweep(

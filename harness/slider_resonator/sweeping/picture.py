@@ -14,15 +14,14 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import SETTABLE
+from slider_resonator.device.interface import SETTABLE, VARIABLES
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, look, plot_html
-from slider_resonator.output.html_page import escaped, rendered, write_page
+from slider_resonator.output.html_page import escaped, write_page
 from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import Drawn, Picture, drawn, style
 from slider_resonator.output.readable import number_of
-from slider_resonator.output.table import Row, Table, numbers, texts
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import Columns, unit
 
@@ -64,7 +63,10 @@ def measure_plot(
 ) -> tuple[HoverPlot, ScalarMappable | None]:
     """Return the plot of a measure over what was varied, and the scale of colours of a map."""
     answers = drawn(measure, unit(measure), np.array(columns[measure], dtype=np.float64))
-    variables = drawn_variables(sweep, columns)
+    variables = {
+        name: drawn(name, SETTABLE[name], np.array(columns[name], dtype=np.float64))
+        for name in sweep.task.names
+    }
     axes = {n: Axis(one.label, log=n in sweep.logarithmic) for n, one in variables.items()}
     notes = [_note(columns, measure, answers, point) for point in range(len(sweep.points))]
     none = np.isnan(answers.values)
@@ -118,12 +120,6 @@ def _note(columns: Columns, measure: str, answers: Drawn, point: int) -> str:
     return "\n".join([first, *(str(line) for line in (status, error) if line)])
 
 
-def drawn_variables(sweep: Sweep, columns: Columns) -> dict[str, Drawn]:
-    """Return what was varied, by name, as it is drawn."""
-    names = sweep.task.names
-    return {n: drawn(n, SETTABLE[n], np.array(columns[n], dtype=np.float64)) for n in names}
-
-
 def _split_into_lines(
     sweep: Sweep, variables: Mapping[str, Drawn]
 ) -> tuple[str, list[tuple[str, NDArray[np.intp]]]] | None:
@@ -145,41 +141,18 @@ def _split_into_lines(
     ]
 
 
-MAX_POINTS = 20_000
-"""Points of a page, some 200 bytes each for every measure."""
-
-
-def check_page(sweep: Sweep, option: str) -> None:
-    """Raise HarnessError, which begins with the option, for a sweep that has no page."""
-    check_picture(sweep, option)
-    if len(sweep.points) > MAX_POINTS:
-        raise HarnessError(f"{option}: {len(sweep.points)} points; must be at most {MAX_POINTS}")
-
-
 def write_sweep_page(path: Path, sweep: Sweep, columns: Columns, provenance: Provenance) -> None:
     """Write the page of a sweep over one or two variables."""
     failed = sum(error is not None for error in columns["error"])
-    counts = f"<p>{number_of(len(sweep.points), 'point')}, {failed} of them failed.</p>"
-    parts = [counts, rendered(_setup(sweep, drawn_variables(sweep, columns)))]
+    fixed = [f"{name} {VARIABLES[name].shown(value)}" for name, value in sweep.task.fixed]
+    counts = f"{number_of(len(sweep.points), 'point')}, {failed} of them failed"
+    parts = [f"<p>{counts}. Fixed: {', '.join(fixed) or 'nothing'}.</p>"]
     for measure in sweep.task.measures:
         plot, scale = measure_plot(sweep, columns, measure)
         parts.append(plot_html(plot))
         parts += [_scale_html(scale, plot.title)] if scale else []
     parts.append(provenance_html(provenance))
     write_page(path, sweep.title or "Sweep", parts)
-
-
-def _setup(sweep: Sweep, variables: Mapping[str, Drawn]) -> Table:
-    rows: list[Row] = []
-    for name, one in variables.items():
-        spacing = ", logarithmic" if name in sweep.logarithmic else ""
-        count = len(np.unique(one.values))
-        span = (f"{one.values.min():g}", f"{one.values.max():g}")
-        rows.append((one.label, *span, f"{count}{spacing}"))
-    for name, value in sweep.task.fixed:
-        one = drawn(name, SETTABLE[name], np.array([value]))
-        rows.append((one.label, f"{one.values[0]:g}", f"{one.values[0]:g}", "fixed"))
-    return Table((*texts("variable"), *numbers("from", "to", "values")), rows)
 
 
 def _scale_html(scale: ScalarMappable, label: str) -> str:

@@ -16,7 +16,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping import sweeping
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
 from slider_resonator.sweeping.measures import Columns, Row, Run, Task
-from slider_resonator.sweeping.picture import MAX_POINTS, check_page, sweep_figure, write_sweep_page
+from slider_resonator.sweeping.picture import sweep_figure, write_sweep_page
 from slider_resonator.sweeping.sweeping import check_writer, table_columns, write_table
 from tests.harness.golden import assert_as_before, assert_mistakes_as_before
 from tests.harness.known_provenance import PROVENANCE
@@ -149,12 +149,6 @@ def test_a_sweep_without_any_answer_is_drawn_and_says_so() -> None:
     (axes,) = sweep_figure(sweep, columns_of(sweep, answered=False)).axes
     assert axes.get_legend_handles_labels()[1] == ["steady velocity: no answer"]
     assert axes.get_legend() is not None
-
-
-def test_too_many_points_are_refused() -> None:
-    axis = {"from": 0.0, "to": 1.0, "count": MAX_POINTS + 1}
-    with pytest.raises(HarnessError, match=f"--html: {MAX_POINTS + 1} points; must be at most"):
-        check_page(grid_from({"grid": {"phase": axis}}, "a"), "--html")
 
 
 @pytest.mark.parametrize(
