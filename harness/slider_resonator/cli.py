@@ -201,16 +201,9 @@ def main(max_memory: int | None, max_unpacked: int | None) -> None:
     \b
     Examples:
       slider-resonator validate
-      slider-resonator validate my.fmu --scene table_1 --scene lift_off
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator steady my.fmu --set phase=0.4 --set load=0.05 --json
-      slider-resonator blocking my.fmu --json
-      slider-resonator choose feed_forward --json
-      slider-resonator stress --out stress
       slider-resonator sweep grid.toml --out table.parquet
-      slider-resonator page --device mine.toml --out mine.html
-      slider-resonator trade table_1 --out trade
-      slider-resonator baseline check my.fmu --dir baseline
     """
     for variable, value in ((MEMORY, max_memory), (UNPACKED, max_unpacked)):
         if value is not None:
