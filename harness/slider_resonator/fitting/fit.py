@@ -104,8 +104,6 @@ def fit(
             pairs = zip(free, one.internal.tolist(), strict=True)
             said = ", ".join(f"{which.name} = {which.value(x):.6g}" for which, x in pairs)
             notes.append(f"the data are met as well, or almost, by {said}; bounds decide")
-        if agreeing == 1 < starts:
-            notes.append("no other start led to this minimum: try more (--starts), or bounds")
     return Fit(
         fitted,
         Device.from_mapping(found),
