@@ -134,11 +134,6 @@ class OpenFmu(AbstractContextManager["OpenFmu"]):
         """Free the FMU and end its process."""
         self._isolated.close()
 
-    def __repr__(self) -> str:
-        """Return the path of the FMU, and what its device differs from table 1 in."""
-        stated = ", ".join(f"{name}={value:g}" for name, value in self._device.items())
-        return f"OpenFmu({str(self.path)!r}{', ' if stated else ''}{stated})"
-
     def run(self, scene: SceneLike, **values: Value) -> SceneRecord:
         """Run a scene and return inputs and outputs at all its communication points.
 
