@@ -80,7 +80,7 @@ def test_an_interrupted_stress_says_what_is_kept(native_fmu: Path, tmp_path: Pat
     assert code == 130, shown
     assert "interrupted" in lines(shown)
     words = " ".join(shown.split("interrupted", 1)[1].split())
-    assert re.match(rf"the verdicts of \d+ cases are kept in {re.escape(str(out))};", words), shown
+    assert words.startswith(f"the verdicts of finished cases are kept in {out}"), shown
     long = [line for line in lines(shown.split("interrupted", 1)[1]) if len(line) > WIDTH]
     assert all(str(out) in line for line in long), "only a path may be longer than a line"
     assert (out / "stress.json").is_file()

@@ -1,8 +1,7 @@
 """`stress`: run FMUs at extremes and with random devices."""
 
 import re
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Callable
 from pathlib import Path
 
 import click
@@ -14,7 +13,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.files import make_folder
 from slider_resonator.output.progress import part_of, progress_bar
-from slider_resonator.output.readable import number_of, one_line
+from slider_resonator.output.readable import one_line
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.case import DEVICE, RANDOM, Case
 from slider_resonator.stressing.random_cases import random_case
@@ -124,7 +123,12 @@ def stress_command(
             make_folder(out)
             write_results(results, out, provenance)
 
-    with noting_on_interrupt(partial(_kept, results, out)), progress_bar() as progress:
+    def kept() -> str:
+        if not results or out is None:
+            return "nothing is kept; --out keeps what is finished"
+        return f"the verdicts of finished cases are kept in {out}"
+
+    with noting_on_interrupt(kept), progress_bar() as progress:
         for index, (fmu, own) in enumerate(zip(chosen, apply, strict=True)):
             part = part_of(progress, index, len(chosen))
             keep(run_cases(fmu, cases, part, time_limit, jobs=jobs, chosen=own, keep=keep))
@@ -148,13 +152,3 @@ def case_named(name: str) -> Case:
     if name not in cases:
         raise HarnessError(f"--case: {unknown_name('case', name, cases)}")
     return cases[name]
-
-
-def _kept(results: Sequence[StressResult], out: Path | None) -> str:
-    if not results or out is None:
-        return "nothing is kept; --out keeps what is finished"
-    ran = sum(len(result.verdicts) for result in results)
-    return (
-        f"the verdicts of {number_of(ran, 'case')} are kept in {out}; the same command runs "
-        "all cases again"
-    )
