@@ -132,18 +132,8 @@ class SettingsCommand(click.Command):
     """A command with `--set`, after which several NAME=VALUE may follow."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Insert `--set` before each further NAME=VALUE; say how to set what is no option."""
-        try:
-            return super().parse_args(ctx, _each_with_its_option(args))
-        except click.NoSuchOption as error:
-            name = error.option_name.lstrip("-").replace("-", "_")
-            if name not in SETTABLE:
-                raise
-            raise click.UsageError(
-                f"{error.option_name}: no such option; a parameter or input is set by "
-                f"{SET} {name}=VALUE",
-                ctx,
-            ) from error
+        """Insert `--set` before each further NAME=VALUE."""
+        return super().parse_args(ctx, _each_with_its_option(args))
 
 
 def _each_with_its_option(arguments: Sequence[str]) -> list[str]:
