@@ -102,7 +102,7 @@ def _measurements(
     settable = [*INPUTS, *(HELD if is_run else PARAMETERS), "time"]
     names = [*settable, *outputs]
     values: dict[str, Array] = {}
-    plain = set[str]()
+    plain_numbers: list[tuple[str, str, float]] = []
     ignored = []
     for heading, cells in columns:
         what, std = _parts(heading, aliases)
@@ -120,9 +120,9 @@ def _measurements(
             raise ValueError(f"two columns {name}; must be one")
         with explained("heading ", ValueError):
             factor = heading_factor(heading, variable(what).unit)
-        if not split_heading(heading)[1]:
-            plain.add(name)
         values[name] = _numbers(heading, rows, cells, factor)
+        if name in IN_ANOTHER_UNIT and not split_heading(heading)[1]:
+            plain_numbers += [(source, name, value) for value in np.unique(values[name]).tolist()]
     measured = {name: column for name, column in values.items() if name in outputs}
     if not measured:
         raise ValueError(f"measures nothing; must have a column such as {outputs[0]}")
@@ -145,12 +145,6 @@ def _measurements(
             f"begins at {variable('time').shown(schedule.times[1])}; the device starts at time 0 "
             "in its initial state, at drive phase 0, and has the inputs of the first row until then"
         )
-    plain_numbers = [
-        (source, name, value)
-        for name in IN_ANOTHER_UNIT
-        if name in plain
-        for value in dict.fromkeys(values[name].tolist())
-    ]
     return Measurements(
         points,
         {} if schedule is None else {source: schedule},
