@@ -189,16 +189,12 @@ def run_sweep(
         write_table(out, sweep.task, columns)
         journal.remove()
     errors = [error for error in columns["error"] if error is not None]
+    measured = zip(*(columns[name] for name in ("error", *sweep.task.measures)), strict=True)
     return SweepResult(
         points=len(sweep.points),
         found=found,
         failed=len(errors),
-        unanswered=sum(
-            error is None and None in values
-            for error, *values in zip(
-                columns["error"], *(columns[name] for name in sweep.task.measures), strict=True
-            )
-        ),
+        unanswered=sum(error is None and None in values for error, *values in measured),
         first_error=errors[0] if errors else None,
         columns=columns,
         sweep=sweep,
