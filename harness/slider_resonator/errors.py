@@ -36,6 +36,19 @@ def explained(where: str = "", kind: type[Exception] = SceneError) -> Iterator[N
         raise kind(f"{where}{error}") from None
 
 
+SYMBOLS = {
+    "M": "slider_mass",
+    "m": "resonator_mass",
+    "xi": "damping_ratio",
+    "zeta": "damping_ratio",
+    "A": "base_amplitude",
+    "w": "drive_frequency",
+    "omega": "drive_frequency",
+    "N0": "normal_preload",
+    "mu": "friction_coefficient",
+    "phi": "phase",
+}
+"""What books call parameters and inputs."""
 MAX_LISTED = 60
 """Number of allowed names up to which a message lists them all."""
 MAX_NEAR = 8
@@ -51,7 +64,9 @@ def unknown_name(kind: str, name: str, allowed: Iterable[str]) -> str:
     by_folded = {candidate.lower(): candidate for candidate in names}
     near = [by_folded[one] for one in get_close_matches(name.lower(), by_folded, n=1, cutoff=0.5)]
     parts = [one for one in names if name.lower() in one.lower().split("_")]
-    if len(parts) == 1:
+    if SYMBOLS.get(name) in names:
+        near = [SYMBOLS[name]]
+    elif len(parts) == 1:
         near = parts
     hint = f"; did you mean {near[0]!r}?" if near else ""
     listed = ", ".join(names)

@@ -204,3 +204,9 @@ def test_the_nearest_name_is_suggested_whatever_its_case() -> None:
 def test_the_only_name_with_that_part_comes_before_one_that_looks_like_it() -> None:
     text = unknown_name("parameter or input", "preload", ["load", "normal_preload", "phase"])
     assert "did you mean 'normal_preload'?" in text
+
+
+def test_a_symbol_stands_for_its_parameter() -> None:
+    text = unknown_name("parameter", "mu", ["slider_mass", "friction_coefficient"])
+    assert "'mu'; did you mean 'friction_coefficient'?" in text
+    assert "did you mean" not in unknown_name("output", "mu", ["position"])
