@@ -1,7 +1,6 @@
 """Tables, foreign text and whole pages in HTML; a page needs no other file."""
 
 import base64
-import re
 from collections.abc import Sequence
 from functools import cache
 from hashlib import sha256
@@ -12,8 +11,8 @@ from slider_resonator.output.files import replacing
 from slider_resonator.output.readable import printable
 from slider_resonator.output.table import Cell, Column, Style, Table
 
-MAX_WIDTH = 44
-"""Characters, with one between columns, of a row that fits on a phone; wider rows become cards."""
+MAX_COLUMNS = 3
+"""Columns of a table that fit on a phone; there the rows of a table with more become cards."""
 LONG = 18
 """Characters from which on a cell has a line of its own on such a card."""
 PLOT = '<div class="plot">'
@@ -22,9 +21,6 @@ SCRIPTS = ("vendor/uPlot.iife.min.js", "hover_plot.js")
 """Files beside this one that draw plots."""
 STYLES = ("page.css", "vendor/uPlot.min.css", "hover_plot.css")
 
-_WHOLE = re.compile(r"(?<!\S)--?[a-z][\w-]*|(?<= )[\d.]+e-\d+(?= )")
-"""Options and small numbers, which browsers would break after a hyphen."""
-
 
 def escaped(text: str) -> str:
     """Return the text escaped for an element or a quoted attribute."""
@@ -32,9 +28,9 @@ def escaped(text: str) -> str:
 
 
 def rendered(table: Table) -> str:
-    """Return the table as HTML: on a phone the rows of a wide one are cards."""
+    """Return the table as HTML: on a phone the rows of one with many columns are cards."""
     has_headings = any(column.heading for column in table.columns)
-    stacks = has_headings and _min_width(table) > MAX_WIDTH
+    stacks = has_headings and len(table.columns) > MAX_COLUMNS
     body = "\n".join(f"<tr>{_row(row, table.columns, stacks)}</tr>" for row in table.cells)
     head = "".join(_element("th", Cell(column.heading), column) for column in table.columns)
     headings = f"<thead><tr>{head}</tr></thead>" if has_headings else ""
@@ -55,17 +51,14 @@ def section(anchor: str, heading: str, note: str, html: str, *, unfolded: bool) 
     )
 
 
-def write_page(
-    path: Path, title: str, parts: Sequence[str], *, images_beside: bool = False
-) -> None:
+def write_page(path: Path, title: str, parts: Sequence[str]) -> None:
     """Write a page with a title and parts of HTML; HarnessError when it cannot be written.
 
-    It loads nothing but, with `images_beside`, images in its folder, and runs no other scripts than
-    those that draw plots, if it has some.
+    It may load images in its folder, nothing else, and runs no other scripts than those that draw
+    plots, if it has some.
     """
     scripts = [_file(name) for name in SCRIPTS if any(PLOT in part for part in parts)]
-    images = "data: 'self' file:" if images_beside else "data:"
-    policy = f"default-src 'none'; img-src {images}; style-src 'unsafe-inline'"
+    policy = "default-src 'none'; img-src data: 'self' file:; style-src 'unsafe-inline'"
     if scripts:
         digests = [base64.b64encode(sha256(one.encode()).digest()).decode() for one in scripts]
         policy += "; script-src " + " ".join(f"'sha256-{digest}'" for digest in digests)
@@ -90,23 +83,9 @@ def _file(name: str) -> str:
     return (Path(__file__).parent / name).read_text(encoding="utf-8")
 
 
-def _min_width(table: Table) -> int:
-    """Return the characters of the narrowest row, with one for each column; numbers keep a line."""
-    whole = [row for row in table.cells if len(row) == len(table.columns)]
-    width = len(table.columns)
-    for index, column in enumerate(table.columns):
-        size = len if column.numeric else _longest_word
-        width += max([_longest_word(column.heading), *(size(row[index].text) for row in whole)])
-    return width
-
-
-def _longest_word(text: str) -> int:
-    return max(map(len, re.split(r"[\s_]+", text)))
-
-
 def _row(row: Sequence[Cell], columns: Sequence[Column], stacks: bool) -> str:
     if len(row) < len(columns):
-        return f'<td colspan="{len(columns)}">{_text(row[0], wrapped=True)}</td>'
+        return f'<td colspan="{len(columns)}">{_text(row[0])}</td>'
     pairs = zip(row, columns, strict=True)
     return "".join(_element("td", cell, column, stacks) for cell, column in pairs)
 
@@ -118,14 +97,11 @@ def _element(tag: str, cell: Cell, column: Column, stacks: bool = False) -> str:
     kind = f' class="{" ".join(kinds)}"' if kinds else ""
     heading = f' data-heading="{escaped(column.heading)}"' if stacks else ""
     note = f' title="{escaped(cell.note)}"' if cell.note else ""
-    return f"<{tag}{kind}{heading}{note}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
+    return f"<{tag}{kind}{heading}{note}>{_text(cell)}</{tag}>"
 
 
-def _text(cell: Cell, *, wrapped: bool) -> str:
-    text = escaped(cell.text)
-    if wrapped:
-        text = _WHOLE.sub(r'<span class="lines">\g<0></span>', text)
-    text = text.replace("\n", "<br>")
+def _text(cell: Cell) -> str:
+    text = escaped(cell.text).replace("\n", "<br>")
     if cell.target:
         text = f'<a href="#{escaped(cell.target)}">{text}</a>'
     return text if cell.style is Style.PLAIN else f'<span class="{cell.style.value}">{text}</span>'

@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.text import Text
 
 from slider_resonator.output.readable import escaped
-from slider_resonator.output.table import Cell, Column, Style, Table
+from slider_resonator.output.table import Cell, Style, Table
 
 _LABELLED = re.compile(r"\s*\S+(?: \S+)* {2,}(?=\S)")
 """The beginning of a line such as "cost     43 drive periods", up to its text."""
@@ -57,62 +57,36 @@ MIN_PROSE = 20
 BETWEEN = 2
 """Columns between two columns of a table: padding and divider."""
 INDENT = "  "
-_UNIT = r"(?:[num]?s|min|h|[um]?m|[um]?m/s|m?N|N/s|kg|rad|rad/s|deg|k?Hz|1/m|s/m|[kM]B|[kMG]iB|%)"
-_BEFORE_UNIT = re.compile(
-    rf"(?<=\d) (?=(?:{_UNIT}|drive periods?)(?![\w/]))|(?<=\d drive) (?=periods?\b)"
-)
-"""The spaces between a number and its unit."""
-_NO_BREAK = "\N{NO-BREAK SPACE}"
 
 
 def words(text: str, width: int, indent: str = "") -> str:
-    """Return the text wrapped between words; one that is too long stays whole.
-
-    A number and its unit are one word.
-    """
-    lines = text.splitlines() or [""]
-    wrapped = "\n".join(
-        textwrap.fill(
-            _BEFORE_UNIT.sub(_NO_BREAK, line),
-            max(width, 1),
-            subsequent_indent=indent,
-            break_long_words=False,
-            break_on_hyphens=False,
-        )
-        for line in lines
+    """Return the text wrapped between words; one that is too long stays whole."""
+    wrapper = textwrap.TextWrapper(
+        max(width, 1), subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
     )
-    return wrapped.replace(_NO_BREAK, " ")
+    return "\n".join(wrapper.fill(line) for line in text.splitlines())
 
 
 def _fitted(table: Table, available: int) -> list[int] | None:
     """Return the width of each column, None where they do not fit."""
-    full = [row for row in table.cells if len(row) == len(table.columns)]
-    alone = [row[0] for row in table.cells if len(row) != len(table.columns)]
-    columns = [list(cells) for cells in zip(*full, strict=True)] or [[] for _ in table.columns]
-    columns[0] += [cell for cell in alone if cell.style is Style.HEADING]
-    columns[0] += [Cell(word) for cell in alone for word in cell.text.split()]
-    both = list(zip(table.columns, columns, strict=True))
-    widths = [_width([column.heading, *(c.text for c in cells)]) for column, cells in both]
-    min_widths = [
-        width if column.numeric else min(width, max(MIN_PROSE, _longest_word(column, cells)))
-        for width, (column, cells) in zip(widths, both, strict=True)
-    ]
+    widths, min_widths = [], []
+    for index, column in enumerate(table.columns):
+        lines = [column.heading]
+        for row in table.cells:
+            if len(row) == len(table.columns) or (index == 0 and row[0].style is Style.HEADING):
+                lines += row[index].text.splitlines()
+            elif index == 0:
+                lines += row[0].text.split()
+        width = max(map(cell_len, lines))
+        longest_word = max((cell_len(word) for line in lines for word in line.split()), default=0)
+        widths.append(width)
+        min_widths.append(width if column.numeric else min(width, max(MIN_PROSE, longest_word)))
     excess = sum(widths) + BETWEEN * len(widths) - available
     for index in sorted(range(len(widths)), key=lambda i: min_widths[i] - widths[i]):
         cut = min(widths[index] - min_widths[index], max(excess, 0))
         widths[index] -= cut
         excess -= cut
     return widths if excess <= 0 else None
-
-
-def _width(texts: Sequence[str]) -> int:
-    return max(cell_len(line) for text in texts for line in (text.splitlines() or [""]))
-
-
-def _longest_word(column: Column, cells: Sequence[Cell]) -> int:
-    texts = (column.heading, *(cell.text for cell in cells))
-    every = (word for text in texts for word in _BEFORE_UNIT.sub("_", text).split())
-    return max(map(cell_len, every), default=0)
 
 
 def _columns(table: Table, widths: Sequence[int]) -> rich.table.Table:

@@ -105,7 +105,7 @@ def write_index(
         parts.append(html_page.rendered(_measured(shown, data)))
         parts += [f"<p>{text(line)}</p>" for line in _largest(shown, data)]
     parts.append(provenance_html(provenance))
-    html_page.write_page(folder / "index.html", "The paper, reproduced", parts, images_beside=True)
+    html_page.write_page(folder / "index.html", "The paper, reproduced", parts)
 
 
 def _measured(table: PaperTable, data: Data) -> Table:
