@@ -165,7 +165,7 @@ def run_command(
         if out is not None:
             columns = record.table()
             rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-            write_csv(out, columns, rows, quotes_text=True)
+            write_csv(out, columns, rows)
         if is_chosen and plot is not None:
             shown = window or (0.0, float(record.times[-1]))
             _draw_signals(isolated, fmu, read, signals, shown, overlays, plot, time_limit, progress)

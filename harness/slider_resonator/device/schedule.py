@@ -27,10 +27,10 @@ def communication_points(stop: float, step: Steps, jumps: Iterable[float] = ()) 
     A grid point next to a jump is replaced by it, so that no step starts just
     before a jump and holds the old value throughout. Raises ValueError as `step_count` does.
     """
-    sizes = [step] if isinstance(step, float | int) else list(step)
+    sizes = np.atleast_1d(step)
     grid = sizes[0] * np.arange(step_count(stop, step), dtype=np.float64)
     if len(sizes) > 1:
-        grid = np.cumsum([0.0, *sizes * (len(grid) // len(sizes))])
+        grid = np.cumsum([0.0, *np.tile(sizes, len(grid) // len(sizes))])
     inside = {time for time in jumps if 0.0 < time < stop}
     fixed = np.array(sorted({0.0, stop} | inside))
     return _merged(grid[grid < stop], fixed, GRID_TOLERANCE * min(sizes))
@@ -42,19 +42,17 @@ def step_count(stop: float, step: Steps) -> int:
     Several sizes are taken in turn. Raises ValueError for times that are not positive and for more
     than `MAX_STEPS` steps.
     """
-    if not isinstance(step, float | int):
-        if not min(step) > 0.0:
-            raise ValueError(f"steps of {min(step)!r} s: must be positive")
-        return len(step) * step_count(stop, float(sum(step)))
-    if not (stop > 0.0 and step > 0.0):
-        raise ValueError(f"a stop time of {stop!r} s in steps of {step!r} s: both must be positive")
-    ratio = stop / step * (1.0 - GRID_TOLERANCE)
-    if not ratio <= MAX_STEPS:
+    sizes = np.atleast_1d(step)
+    smallest = float(min(sizes))
+    if not (stop > 0.0 and smallest > 0.0):
+        raise ValueError(f"a stop time of {stop!r} s in steps of {smallest!r} s: must be above 0")
+    count = len(sizes) * np.ceil(stop / float(sum(sizes)) * (1.0 - GRID_TOLERANCE))
+    if not count <= MAX_STEPS:
         raise ValueError(
-            f"a stop time of {stop:.6g} s in steps of {step:.6g} s makes {ratio:.3g} communication "
-            f"steps; must be at most {MAX_STEPS}: take longer steps, or a shorter time"
+            f"a stop time of {stop:.6g} s in steps of {smallest:.6g} s makes {count:.3g} steps; "
+            f"must be at most {MAX_STEPS}: take longer steps, or a shorter time"
         )
-    return int(np.ceil(ratio))
+    return int(count)
 
 
 def _merged(grid: Array, fixed: Array, distance: float) -> Array:

@@ -76,14 +76,9 @@ class Journal(AbstractContextManager["Journal"]):
         """Turn errors of the file into a HarnessError that names it."""
         try:
             yield
-        except OSError as error:
-            raise HarnessError(f"{self.path}: cannot be written: {error.strerror}") from error
-        except (sqlite3.Error, ValueError) as error:
-            code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR)
-            if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-                raise HarnessError(f"{self.path}: another {self._work} is writing it") from error
-            if isinstance(error, sqlite3.OperationalError) and code != sqlite3.SQLITE_ERROR:
-                raise HarnessError(f"{self.path}: cannot be written: {error}") from error
+        except (OSError, sqlite3.Error, ValueError) as error:
+            said = error.strerror if isinstance(error, OSError) else error
             raise HarnessError(
-                f"{self.path}: is no journal of a {self._work}, or damaged; move the file away"
+                f"{self.path}: cannot be used as a journal: {said}; must be a new file, or one "
+                f"that this {self._work} alone writes"
             ) from error

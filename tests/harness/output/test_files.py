@@ -169,7 +169,7 @@ def test_the_journal_of_other_work_is_refused_and_left_alone(path: Path) -> None
     content = path.read_bytes()
     with pytest.raises(HarnessError, match=r"another sweep.*--restart"):
         opened(path, "b")
-    with pytest.raises(HarnessError, match="is no journal of a mutation run"):
+    with pytest.raises(HarnessError, match="journal: a journal of a sweep; must be"):
         Journal(path, "mutation run", "a", "move the file away", restart=True)
     assert path.read_bytes() == content
     with opened(path, "b", restart=True) as journal:
@@ -178,15 +178,15 @@ def test_the_journal_of_other_work_is_refused_and_left_alone(path: Path) -> None
 
 @pytest.mark.parametrize("restart", [False, True])
 def test_two_at_once_are_refused(restart: bool, path: Path) -> None:
-    with opened(path), pytest.raises(HarnessError, match="another sweep is writing it"):
+    with opened(path), pytest.raises(HarnessError, match="journal: database is locked"):
         opened(path, restart=restart)
     assert found(path) == ENTRIES
 
 
 def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
-    with pytest.raises(HarnessError, match="none/journal: cannot be written"):
+    with pytest.raises(HarnessError, match="none/journal: cannot be used as a journal"):
         opened(tmp_path / "none" / "journal")
-    with pytest.raises(HarnessError, match="cannot be written: Is a directory"):
+    with pytest.raises(HarnessError, match="cannot be used as a journal: Is a directory"):
         opened(tmp_path)
 
 
@@ -198,7 +198,7 @@ def test_a_file_that_is_no_journal_is_left_alone(path: Path, restart: bool) -> N
     cut_off = path.read_bytes()[:5000]
     for content in (b"Monday: measured", b"\x00\xff\n", b"SQLite", other.read_bytes(), cut_off):
         path.write_bytes(content)
-        with pytest.raises(HarnessError, match="is no journal of a sweep, or damaged"):
+        with pytest.raises(HarnessError, match="cannot be used as a journal"):
             opened(path, restart=restart)
         assert path.read_bytes() == content
     path.write_bytes(b"")
@@ -213,7 +213,7 @@ def test_a_full_disk_is_named(path: Path) -> None:
     with opened(path) as journal:
         try:
             resource.setrlimit(resource.RLIMIT_FSIZE, (path.stat().st_size + 10, before[1]))
-            with pytest.raises(HarnessError, match="journal: cannot be written"):
+            with pytest.raises(HarnessError, match="cannot be used as a journal: disk I/O error"):
                 journal.add(["x" * 100_000])
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, before)
