@@ -12,9 +12,6 @@ from slider_resonator.scenes.key_table import NUMBER_OR_TEXT
 from slider_resonator.scenes.schema import ExpectTable, InputTable, RunTable, SceneTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-_WITHOUT_UNIT = ("drive_periods", "steps_per_period")
-"""Numbers that are counts; any other may be a text with a unit."""
-
 
 def scene_schema() -> dict[str, Any]:
     """Return the JSON schema (draft 2020-12) of a scene file.
@@ -27,8 +24,6 @@ def scene_schema() -> dict[str, Any]:
     properties["expect_bundles"]["items"] = {"enum": list(bundles())}
     device = {"$ref": properties["device"].pop("$ref")}
     properties["device"]["anyOf"] = [device, {"type": "string"}]  # or its name or file
-    for name in _WITHOUT_UNIT:
-        tables["RunTable"]["properties"][name]["type"] = "number"
     for table in (InputTable, RunTable, ExpectTable):
         tables[table.__name__]["allOf"] = [
             {"oneOf": [{"required": [key]} for key in group]} for group in table.one_of
@@ -83,7 +78,3 @@ class _InEditors(GenerateJsonSchema):
     def float_schema(self, schema: core_schema.FloatSchema) -> JsonSchemaValue:
         """Return a number, or a text with a unit."""
         return {**super().float_schema(schema), **NUMBER_OR_TEXT}
-
-    def field_title_should_be_set(self, schema: Any) -> bool:
-        """Return False: keys are titles enough."""
-        return False

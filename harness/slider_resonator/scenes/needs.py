@@ -3,8 +3,6 @@
 from math import inf
 from typing import ClassVar, Literal
 
-from pydantic import model_validator
-
 from slider_resonator.device.units import si_number
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.key_table import KeyTable, Positive, key, units_of
@@ -34,13 +32,6 @@ class AllowedTable(KeyTable):
         0.01,
         unit="1",
     )
-
-    @model_validator(mode="before")
-    @classmethod
-    def _a_table(cls, value: object) -> object:
-        if not isinstance(value, dict):
-            raise ValueError("must be a table with abs or rel, such as { rel = 0.01 }")
-        return value
 
     def __str__(self) -> str:
         share = None if self.rel is None else f"{100.0 * self.rel:.10g} %"

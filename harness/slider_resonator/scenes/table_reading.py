@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Mapping
-from datetime import date, time
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -26,20 +25,15 @@ TableT = TypeVar("TableT", bound=BaseModel)
 def table_from(table: type[TableT], content: Mapping[str, Any], source: str) -> TableT:
     """Return the content of a file as a table of a schema, texts with units in SI units.
 
-    Raises SceneError with a line for each mistake: `source`, key path, value and requirement. Of
-    the mistakes of one kind in a list only the first is reported.
+    Raises SceneError with a line for each of the first ten mistakes: `source`, key path, value and
+    requirement.
     """
     with explained(f"{source}: "):
         content = _in_si(content)
     try:
         return table.model_validate(content)
     except ValidationError as error:
-        first: dict[tuple[object, ...], ErrorDetails] = {}
-        for problem in error.errors():
-            place = problem["loc"]
-            in_list = bool(place) and isinstance(place[-1], int)
-            first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
-        lines = [f"{source}: {_explanation(one, content, table)}" for one in first.values()]
+        lines = [f"{source}: {_explanation(one, content, table)}" for one in error.errors()[:10]]
         raise SceneError("\n".join(lines)) from None
 
 
@@ -86,37 +80,18 @@ def _in_si(value: Any, path: str = "", unit: str = "") -> Any:
     if not isinstance(value, list | tuple):
         return value
     first = "s" if _POINT.search(path) else unit
-    return [
-        _in_si(one, f"{path}[{k + 1}]", unit if k else first)
-        if isinstance(one, str | Mapping | list | tuple)
-        else one
-        for k, one in enumerate(value)
-    ]
+    return [_in_si(one, f"{path}[{k + 1}]", unit if k else first) for k, one in enumerate(value)]
 
 
 _REQUIREMENTS: Mapping[str, str] = {
-    "dict_type": "a table of keys and values",
-    "bool_type": "true or false",
-    "finite_number": "a finite number",
-    "float_type": "a number",
-    "greater_than": "a number above {gt:g}",
-    "greater_than_equal": "a number not below {ge:g}",
-    "int_type": "a whole number",
-    "less_than": "a number below {lt:g}",
-    "less_than_equal": "a number up to {le:g}",
-    "literal_error": "{expected}",
-    "model_type": "a table of keys and values",
-    "string_too_short": "a text that is not empty",
-    "string_pattern_mismatch": "a word of letters, digits, _ and -",
-    "string_type": "a text in quotes",
-    "too_long": "a list of {max_length} numbers",
-    "too_short": "a list of at least {min_length} number",
-    "tuple_type": "a list in brackets",
+    "bool_type": "must be true or false",
+    "dict_type": "must be a table of keys and values",
+    "model_type": "must be a table of keys and values",
+    "string_pattern_mismatch": "must be a word of letters, digits, _ and -",
+    "string_type": "must be a text in quotes",
+    "tuple_type": "must be a list in brackets",
 }
-"""What a value must be, by the type of error that pydantic finds."""
-
-
-_NO_UNITS = ("1", "unit of the quantity")
+"""What a value must be, by the type of error, where pydantic speaks of Python."""
 
 
 PLACES: Mapping[str, str] = {
@@ -141,39 +116,27 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
     wrong = problem["msg"].removeprefix("Value error, ")
     if not location:
         return wrong
-    if kind == "missing" and isinstance(location[-1], int):
-        location = location[:-1]  # a pair of one number
     name, key = location[-1], _key_path(location, content)
     if wrong.startswith(f"{name} = "):
         return key.removesuffix(str(name)) + wrong
+    fields = _fields_at(location, top)
     if kind == "extra_forbidden":
         if name in PLACES and top in (SceneTable, DeviceFileTable):
             return f"{key}: unknown key {name!r}; {PLACES[str(name)]}"
-        return f"{key}: {unknown_name('key', str(name), map(str, _fields_at(location, top)))}"
-    if len(location) > 1 and location[-2] in ("steps", "ramp"):
-        wrong, kind = "must be a pair [time (s), value]", ""
-    field = _fields_at(location, top).get(name)
+        return f"{key}: {unknown_name('key', str(name), map(str, fields))}"
+    field = fields.get(name)
+    example = toml_value(field.examples[0]) if field and field.examples else ""
     if kind == "missing":
-        if field and _tables_in(field.annotation):
-            return f"{key}: is missing; add a table, headed [{key}]"
-        examples = field.examples if field else None
-        example = f"; add {name} = {toml_value(examples[0])}" if examples else ""
-        return f"{key}: is missing{example}"
-    if kind in _REQUIREMENTS:
-        wrong = "must be " + _REQUIREMENTS[kind].format(**problem.get("ctx", {}))
-        about = field.json_schema_extra if field else None
-        unit = str(about.get("unit", "1")) if isinstance(about, dict) else "1"
-        wrong += f", in {unit}" if "number" in wrong and unit not in _NO_UNITS else ""
+        return f"{key}: is missing" + (f"; add {name} = {example}" if example else "")
+    wrong = _REQUIREMENTS.get(kind, re.sub(r"^\w+ should", "must", wrong))
+    wrong = wrong.replace(" after validation", "")
     if location == ("expect",):
         wrong = "must be a list of tables, each headed [[expect]]"
-    elif kind == "model_type" and isinstance(value, list):
-        wrong = f"must be one table, headed [{key}]"
-    if problem["loc"][-1] == "constant" and str(value).lower().endswith(".csv"):
-        wrong = f"must be a number, or a file such as {{ csv = {toml_value(value)} }}"
-    elif problem["loc"][-1] == "constant" and isinstance(value, list):
-        wrong = "must be a number, or values over time such as { steps = [[0, 0], [0.05, 0.04]] }"
-    text = str(value) if isinstance(value, date | time) else repr(value)
-    shown = "" if isinstance(value, dict) else f" = {text}"
+    elif kind == "model_type" and example:
+        wrong = f"must be a table such as {example}"
+    elif problem["loc"][-1] == "constant":
+        wrong += ', or a table such as { steps = [[0, 0], [0.05, 0.04]] } or { csv = "load.csv" }'
+    shown = "" if isinstance(value, dict) else f" = {value!r}"
     return f"{key}{shown}: {wrong}"
 
 

@@ -35,53 +35,29 @@ def toml_text(content: Mapping[str, Any]) -> str:
 
 _LINE = re.compile(r"\(at line (\d+), column \d+\)$")
 
-MAX_SHOWN = 60
-"""Characters of the line that are shown."""
-
-_NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
-_HABITS: tuple[tuple[str, str], ...] = (
-    (r"=\s*([-+]?\d{1,3}),(\d{3})\s*(#.*)?$", r"a number has no comma: write \1\2 or \1.\2"),
-    (r"=\s*([-+]?\d+)'(\d+)\s*(#.*)?$", r"a number has no apostrophe: write \1\2"),
-    (r"=\s*([-+]?)0+(\d+\.?\d*)\s*(#.*)?$", r"a number has no leading zero: write \1\2"),
-    (r"=\s*([-+]?\d+),(\d+)\s*(#.*)?$", r"a number has a decimal point: write \1.\2"),
-    (r"^(;|//|--|%|/\*)", "a comment begins with #"),
-    (r"=[^\[{]*[^\[{,;\s]\s*([,;])\s*(#.*)?$", r"nothing follows a value: delete the \1"),
-    (r"([“”„‘’«»])", 'quotes are straight: write "'),
-    (r"([−–])\s*[\d.]", "a minus sign is -"),
-    (r"=\s*([-+]?)(\.\d\S*)", r"a number begins with a digit: write \g<1>0\2"),
-    (r"=\s*([-+]?\d+\.)\s*(#.*)?$", r"a number ends with a digit: write \g<1>0"),
-    (r"=\s*(?i:true|yes|on|false|no|off)\s*(#.*)?$", "write true or false"),
-    (rf"=\s*({_NUMBER}\s*[A-Za-z°µμ/%]+)\s*(#.*)?$", r'a unit needs quotes: write "\1"'),
-    (
-        r"=\s*([\w.()]+\s*[*/^+-]\s*[-+\w.(]|-?(?i:pi|tau)\s*(#.*)?$)",
-        "nothing is computed: write the number, such as 1e-3",
-    ),
-    (r"^([A-Za-z]\w*) +(\w+)\s*=", r"a key has no blanks: did you mean \1_\2?"),
-    (r"=\s*(?i:null|none|nil)\s*(#.*)?$", "delete the line: a key without a value is left out"),
-    (r"\[\s*\(", "a pair has square brackets, as in [[0.0, 0.0], [0.05, 0.04]]"),
-    (rf"(?:\]\s*\[|{_NUMBER}\s+{_NUMBER})", "a comma must be between two values"),
-    (r"=\s*\{\s*\"?(\w+)\"?\s*:", r"must be key = value: write { \1 = ... }"),
-    (r"=\s*(\".*\"|'.*')[^#]*[\w\"'][^#]*$", "a text with quotes in it has others around it"),
-    (r"=\s*\{\s*(#.*)?$", "a table in braces is on one line: close the brace there"),
-)
-"""What other notations have at this place, as a pattern of the line; the remedy."""
-
-
 _OPEN = r"[\[{][^\]}]*$"
-_ODD_QUOTES = r'^[^"]*"(?:[^"]*"[^"]*")*[^"]*$'
+_NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _REMEDIES: tuple[tuple[str, str, str], ...] = (
-    *(("", habit, remedy) for habit, remedy in _HABITS),
+    ("", r"=\s*([-+]?\d{1,3}),(\d{3})\s*(#.*)?$", r"a number has no comma: write \1\2 or \1.\2"),
+    ("", r"=\s*([-+]?\d+),(\d+)\s*(#.*)?$", r"a number has a decimal point: write \1.\2"),
+    ("", r"=\s*[-+]?(\.\d|\d+\.\s*(#|$))", "a point is between digits, as in 0.5 and 5.0"),
+    ("", rf"=\s*({_NUMBER}\s*[A-Za-z°µμ/%]+)\s*(#.*)?$", r'a unit needs quotes: write "\1"'),
+    ("", r"=\s*([\w.()]+\s*[*/^+-]\s*[-+\w.(]|-?(?i:pi|tau)\b)", "must be a number, such as 1e-3"),
+    ("", r"^(;|//|--|%|/\*)", "a comment begins with #"),
+    ("", r"=[^\[{]*[^\[{,;\s]\s*([,;])\s*(#.*)?$", r"nothing follows a value: delete the \1"),
+    ("", r"([“”„‘’«»])", 'quotes are straight: write "'),
+    ("", r"([−–])\s*[\d.]", "a minus sign is -"),
+    ("", r"=\s*(?i:true|yes|on|false|no|off)\s*(#.*)?$", "write true or false"),
+    ("", r"=\s*(\".*\"|'.*')[^#]*[\w\"'][^#]*$", "a text with quotes in it has others around it"),
+    ("", r"=\s*\{\s*(#.*)?$", "a table in braces is on one line: close the brace there"),
     ("overwrite|twice|mutate", "", "must be there once: delete one"),
-    ("declaration", "", "close the bracket, as in [run] or [[expect]]"),
     ("hex value|Unescaped", r"\\", "a path in quotes is written with /"),
-    ("Unclosed inline table", "", "close the brace with }"),
-    ("Unclosed", "", "close the bracket"),
-    ("", _OPEN, "close the bracket"),
+    ("Unclosed", r"\]\s*\[", "a comma must be between two values"),
+    ("Unclosed|declaration", "", "close the bracket or brace"),
+    ("", _OPEN, "close the bracket or brace"),
     ("Illegal character", "", "close the quotes"),
-    ("", _ODD_QUOTES, "close the quotes"),
     ("Invalid value", r"=\s*[A-Za-z]", 'a text needs quotes, as in "my_step"'),
-    ("Invalid value", "", "must be a number, a text in quotes or a list"),
-    ("", "", "must be key = value, or a heading such as [run]"),
+    ("", "", "must be key = value with a number, a text in quotes or a list, or a [heading]"),
 )
 """The remedy for an error of a line, as patterns of both; the first that fits."""
 
@@ -93,7 +69,7 @@ def toml_mistake(text: str, error: str) -> str:
     opening = [n for n, line in enumerate(lines, 1) if re.search(_OPEN, line)] or [len(lines)]
     number = min(int(place[1]), len(lines)) if place else opening[-1]
     line = lines[number - 1].strip()
-    shown = line if len(line) <= MAX_SHOWN else f"{line[:MAX_SHOWN]}..."
+    shown = line if len(line) <= 60 else f"{line[:60]}..."
     wrong = _LINE.sub("", error).removesuffix("(at end of document)").strip()
     remedies = (
         found.expand(remedy)
