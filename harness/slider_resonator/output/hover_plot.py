@@ -20,10 +20,6 @@ MARKERS = "●■▲◆▼★✚◀▶○□△◇✖"
 DASHES: tuple[tuple[int, ...], ...] = ((), (8, 4), (2, 3), (8, 3, 2, 3))
 
 
-DIGITS = 9
-"""Digits of the numbers in a page: more than a plot shows or its texts say."""
-
-
 @dataclass(frozen=True)
 class Axis:
     """An axis with its unit in the label; a logarithmic one is for positive values only.
@@ -88,7 +84,7 @@ def _printable(value: object) -> object:
     if isinstance(value, str):
         return printable(value)
     if isinstance(value, float):
-        return float(f"{value:.{DIGITS}g}")
+        return float(f"{value:.9g}")  # more digits than a plot shows or its texts say
     if isinstance(value, dict):
         return {key: _printable(item) for key, item in value.items()}
     return [_printable(item) for item in value] if isinstance(value, list) else value

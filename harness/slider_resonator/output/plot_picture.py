@@ -9,10 +9,6 @@ from slider_resonator.output.hover_plot import MARKERS, HoverPlot, Series
 
 SHAPES = dict(zip(MARKERS, "os^Dv*P<>os^DX", strict=True))
 HOLLOW = "○□△◇"
-DEGREES = (1, 2, 3, 4.5, 9, 10)
-"""Steps of ticks on an axis in degrees, up to a power of ten."""
-MAX_MARKED = 200
-"""Points of a line up to which each has a marker."""
 
 
 def draw_plot(axes: Axes, plot: HoverPlot) -> None:
@@ -30,7 +26,7 @@ def draw_plot(axes: Axes, plot: HoverPlot) -> None:
     axes.set(xscale="log" if plot.x.log else "linear", yscale="log" if plot.y.log else "linear")
     for axis, described in ((axes.xaxis, plot.x), (axes.yaxis, plot.y)):
         if described.label.endswith("[deg]") and not described.log:
-            axis.set_major_locator(MaxNLocator("auto", steps=DEGREES))
+            axis.set_major_locator(MaxNLocator("auto", steps=(1, 2, 3, 4.5, 9, 10)))
 
 
 def _fill_cells(axes: Axes, plot: HoverPlot, series: Series) -> None:
@@ -52,7 +48,7 @@ def _draw_line(axes: Axes, series: Series) -> None:
         color=series.colour,
         linewidth=series.width,
         linestyle=(0, tuple(series.dash)) if series.dash and series.width else "-",
-        marker=SHAPES.get(series.marker, "") if len(series.x) <= MAX_MARKED else "",
+        marker=SHAPES.get(series.marker, "") if len(series.x) <= 200 else "",
         markersize=5.5,
         markerfacecolor="white" if series.marker in HOLLOW else series.colour,
         markeredgewidth=0.5,

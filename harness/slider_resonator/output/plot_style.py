@@ -152,31 +152,22 @@ def drawn(name: str, unit: str, values: Array) -> Drawn:
     return Drawn(name.replace("_", " "), suited, factor * values)
 
 
-START = 0.1
-"""Share of the time of a curve that counts as its start."""
-FAR = 1.0
-"""How far outside a start must be, in widths of the range that follows."""
-ROUNDING = 1e-6
-"""Width below which what follows is no more than rest, as a share of the whole."""
-MARGIN = 0.06
-
-
 def range_after_start(times: Array, *curves: Array) -> tuple[tuple[float, float] | None, str]:
     """Return the range of curves after a start that is far outside it, with 0 and a margin.
 
-    `times` and curves have shape (n,). Return also what the plot says then; None and "" where the
-    start is not far outside.
+    `times` and curves have shape (n,). The start is the first tenth of the time, and far outside
+    where it is so by more than the width of what follows. Return also what the plot says then; None
+    and "" where the start is not far outside.
     """
-    later = times >= times[0] + START * (times[-1] - times[0])
+    later = times >= times[0] + 0.1 * (times[-1] - times[0])
     values = np.array(curves)
     lowest, highest = min(0.0, np.min(values)), max(0.0, np.max(values))
     low, high = min(0.0, np.min(values[:, later])), max(0.0, np.max(values[:, later]))
-    width = high - low
-    far = max(highest - high, low - lowest) > FAR * width > FAR * ROUNDING * (highest - lowest)
-    if not far:
+    width, rounding = high - low, 1e-6 * (highest - lowest)
+    if not max(highest - high, low - lowest) > width > rounding:
         return None, ""
     words = f"start beyond the axis: {np.min(values):.3g} to {np.max(values):.3g}"
-    return (low - MARGIN * width, high + MARGIN * width), words
+    return (low - 0.06 * width, high + 0.06 * width), words
 
 
 def limit_to_later(axes: Axes, times: Array, *curves: Array) -> None:

@@ -8,8 +8,6 @@ from slider_resonator.output.readable import one_line
 
 Progress = Callable[[str, float], None]
 """Takes the present task and the share of the work done, 0 to 1."""
-MEMORY = 1e6
-"""Time (s) over which the speed is averaged: tasks are few and long."""
 
 
 def no_progress(label: str, share: float) -> None:
@@ -46,8 +44,9 @@ def progress_bar() -> Iterator[Progress]:
         TimeRemainingColumn(),
     )
     console = Console(stderr=True)
+    # The speed is that of the whole time: tasks are few and long.
     with Bar(
-        *columns, console=console, transient=True, expand=True, speed_estimate_period=MEMORY
+        *columns, console=console, transient=True, expand=True, speed_estimate_period=1e6
     ) as shown:
         task = shown.add_task("", total=1.0)
         yield lambda label, share: shown.update(task, description=one_line(label), completed=share)

@@ -14,9 +14,6 @@ from slider_resonator.errors import explained
 
 SEPARATORS = (";", "\t")
 """What programs write between two columns where numbers may have a decimal comma."""
-_SEPARATOR_LINE = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
-"""The first line by which a file tells spreadsheets its separator."""
-
 _HEADING = re.compile(r"\s*(.*?)\s*[\[(]([^\])]*)[\])]\s*")
 
 
@@ -34,17 +31,15 @@ def _text(path: Path) -> str:
 def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the header of a CSV file, and its other rows with their line numbers.
 
-    Columns are apart by commas, by what the header has of `SEPARATORS`, or by what a line `sep=`
-    above it says. Lines that begin with # and rows without a value are left out. Raises ValueError
-    naming the file and what is wrong, also for a row that has more cells than the header.
+    Columns are apart by commas, or by what the header has of `SEPARATORS`. Lines that begin with #
+    and rows without a value are left out. Raises ValueError naming the file and what is wrong, also
+    for a row that has more cells than the header.
     """
     try:
         file = io.StringIO(_text(path), newline="")
         lines = [(n, line) for n, line in enumerate(file, 1) if not line.startswith("#")]
         first = lines[0][1] if lines else ""
         separator = next((one for one in SEPARATORS if one in first), ",")
-        if said := _SEPARATOR_LINE.fullmatch(first):
-            lines, separator = lines[1:], said[1]
         reader = csv.reader((line for _, line in lines), delimiter=separator)
         read = ((lines[reader.line_num - 1][0], row) for row in reader)
         rows = [(line, row) for line, row in read if any(cell.strip() for cell in row)]

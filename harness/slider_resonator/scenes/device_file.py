@@ -86,8 +86,6 @@ def read_device_file(name_or_file: str, folder: Path = Path()) -> DeviceFile:
 
 
 FREQUENCIES = ("drive_frequency", "resonator_frequency")
-FASTEST = 50.0
-"""Velocity (m/s) of vibration that no drive reaches."""
 IN_ANOTHER_UNIT = (*FREQUENCIES, "phase")
 """What is often meant in Hz or degrees."""
 
@@ -99,7 +97,7 @@ def possible_slips(
 
     In Hz may be round numbers, what is beside one, and a frequency that is 2 pi times or a 2 pi-th
     of the other, which is that of `beside` if the table does not have it; in degrees a phase of
-    more than a turn; in um an amplitude that is faster than `FASTEST`. `where` says what to write,
+    more than a turn; in um an amplitude that is faster than 50 m/s. `where` says what to write,
     if not in [device].
     """
 
@@ -113,23 +111,16 @@ def possible_slips(
     apart = any(abs(r / tau - 1.0) < 0.03 for r in (drive / resonator, resonator / drive))
     is_round = any(float(f"{numbers[name]:.2g}") == numbers[name] for name in given)
     meant = {n: "Hz" for n in given if numbers[n] > 0.0 and (is_round or apart)}
-    velocity = numbers.get("base_amplitude", 0.0) * drive
-    if velocity > FASTEST:
+    if numbers.get("base_amplitude", 0.0) * drive > 50.0:
         meant["base_amplitude"] = "um"
     if abs(numbers.get("phase", 0.0)) > tau:
         meant["phase"] = "deg"
-    slips = []
-    for name, unit in meant.items():
-        shown, other = f"{numbers[name]:g}", f"{numbers[name]:g} {unit}"
-        means = f"is {VARIABLES[name].shown(numbers[name])}"
-        if name == "base_amplitude":
-            means = f"at the drive's frequency is {velocity:.3g} m/s"
-        write = where or f'{name} = "{other}"'
-        slips.append(
-            f"{name} = {shown} is in {VARIABLES[name].unit}, which {means}; if {other} is meant, "
-            f"write {write}"
-        )
-    return slips
+    return [
+        f"{name} = {numbers[name]:g} is in {VARIABLES[name].unit}, which is "
+        f"{VARIABLES[name].shown(numbers[name])}; if {numbers[name]:g} {unit} is meant, write "
+        + (where or f'{name} = "{numbers[name]:g} {unit}"')
+        for name, unit in meant.items()
+    ]
 
 
 def without_drive(values: Mapping[str, float]) -> list[str]:

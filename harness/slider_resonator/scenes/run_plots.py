@@ -36,12 +36,8 @@ RUN_COLOURS = ("#1f3b57", "#c8553d", "#2e7d32", "#8e24aa", "#b8860b", "#00838f")
 DASHES = ("-", "--", ":", "-.")
 SMOOTH_POINTS = 64
 """Points per drive period of a smooth curve."""
-MAX_SMOOTH_PERIODS = 120
-"""Drive periods of a window that is drawn in full."""
 DRAWN_PERIODS = 400
 """Drive periods, evenly spread, that are drawn of a longer one."""
-BAND_PERIODS = 30.0
-"""The longest window, in drive periods, in which contact is shown as bands behind the curves."""
 ZOOM_PERIODS = 6
 """Drive periods at the end of the run that are drawn in full."""
 ZOOMED = (
@@ -63,13 +59,11 @@ Window = tuple[float, float]
 
 
 def check_plot(scene: Scene, names: Sequence[str], window: Window | None) -> None:
-    """Raise HarnessError for names of no signal or given twice, and windows beyond the run."""
+    """Raise HarnessError for names of no signal, and windows beyond the run."""
     allowed = [*ALL_OUTPUTS, *INPUTS, *scene.tuning]
     for name in names:
         if name not in allowed:
             raise HarnessError(f"--signals: {unknown_name('output or input', name, allowed)}")
-        if list(names).count(name) > 1:
-            raise HarnessError(f"--signals: {name} is given twice; must be given once")
     stop = float(scene.schedule().times[-1])
     begin, end = window or (0.0, stop)
     if not 0.0 <= begin < end <= stop:
@@ -87,7 +81,7 @@ def schedule_for_window(scene: Scene, window: Window) -> Schedule:
     """
     drive = scene.drive_periods
     begin, periods = drive.passed_by(np.array(window[0])), _periods_in(window, drive)
-    if periods > MAX_SMOOTH_PERIODS:
+    if periods > 120.0:
         begins = begin + np.unique(np.floor(np.linspace(0.0, periods, DRAWN_PERIODS + 1)))[:-1]
         times = drive.instants(begins[:, None] + np.arange(SMOOTH_POINTS + 1) / SMOOTH_POINTS)
     else:
@@ -121,8 +115,8 @@ def plot_signals(
     compared = ALL_OUTPUTS.keys() - {"contact_mode"} if are_compared else ()
     rows = [(n, below) for n in signals for below in (False, True) if not below or n in compared]
     heights = [1.2 if below else 1.9 for _, below in rows]
-    has_bands = len(runs) == 1 and "contact_mode" in shown[0][1]
-    has_bands &= _periods_in(window, scene.drive_periods) <= BAND_PERIODS
+    # In longer windows bands of contact behind the curves would be too narrow.
+    has_bands = len(runs) == 1 and _periods_in(window, scene.drive_periods) <= 30.0
     with style():
         figure = Figure(figsize=(8.0, sum(heights) + 0.8), layout="constrained")
         figure.suptitle(scene.heading)

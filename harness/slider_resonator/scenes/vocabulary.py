@@ -61,24 +61,17 @@ _output = partial(_signal, references=_BY_ANY, tube_references=RESOLVED)
 """An output of the FMU that is compared at each communication point."""
 
 _FAULTS_OF_RUN: Mapping[str, str] = {
-    "reset_differences": "outputs of the run that differ between a new instance and one that is "
-    "reset",
-    "restored_differences": "outputs of the run that differ after a state is restored, whatever "
-    "was done meanwhile, and derivatives of outputs that differ from short steps",
-    "transferred_differences": "outputs of the run that differ in another instance that takes over "
-    "a serialised state",
-    "beside_differences": "outputs that differ while an instance of another device steps in turn, "
-    "from those of each alone",
-    "overwritten_differences": "outputs of the run that differ where other values are set before "
-    "each value",
-    "separate_differences": "outputs of the run that differ where each value that changes is set "
-    "by a call of its own",
-    "reading_differences": "outputs of the run that differ where everything is read again between "
-    "the calls",
-    "rate_differences": "outputs of the run that differ where derivatives of inputs are set in "
-    "another order, or only at the corners of lines",
-    "other_device_differences": "outputs of the run that differ after runs of devices that differ "
-    "in one parameter",
+    "reset_differences": "outputs that differ after a reset from those of a new instance",
+    "restored_differences": "outputs that differ after a state is restored, whatever was done "
+    "meanwhile, and derivatives of outputs that differ from short steps",
+    "transferred_differences": "outputs that differ in another instance with a serialised state",
+    "beside_differences": "outputs that differ while an instance of another device steps in turn",
+    "overwritten_differences": "outputs that differ where each value is set after another one",
+    "separate_differences": "outputs that differ where each value is set by a call of its own",
+    "reading_differences": "outputs that differ where everything is read between the calls",
+    "rate_differences": "outputs that differ where derivatives of inputs are set in another order, "
+    "or only at the corners of lines",
+    "other_device_differences": "outputs that differ after runs of devices with another parameter",
     "refusal_faults": "values and calls that must be refused, by name and without a trace in the "
     "run, and are not",
 }

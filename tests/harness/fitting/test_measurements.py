@@ -76,8 +76,6 @@ PLAIN = "phase [deg],frequency [kHz],steady_velocity [mm/s]\n30,20,47\n60,20,50\
     [
         (PLAIN.encode(), ()),
         (PLAIN.replace(",", "\t").encode("utf-16"), ()),
-        (b"sep=;\r\n" + PLAIN.replace(",", ";").encode(), ()),
-        (b"sep=|\n" + PLAIN.replace(",", "|").encode(), ()),
         (PLAIN.replace("\n", ",\n").encode(), ()),
         (
             ("Nr.," + PLAIN).replace("\n3", "\n1,3").replace("\n6", "\n2,6").encode(),

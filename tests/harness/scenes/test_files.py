@@ -206,7 +206,6 @@ def test_headings_may_have_units(tmp_path: Path) -> None:
     [
         "time;load\n0;0,5\n1,5;-2e-3\n",
         "time\tload\n0\t0.5\n1.5\t-2e-3\n",
-        "sep=;\ntime;load\n0;0,5\n1,5;-2e-3\n",
         "time,load\n0,0.5\n\n1.5,-2e-3\n,\n\n",
         "\ufeff# measured\n# on a Monday\ntime,load\n0,0.5\n# a pause\n1.5,-2e-3\n",
         '\ufeff"time";"load"\n"0";"0,5"\n"1,5";"-0,002"\n',
