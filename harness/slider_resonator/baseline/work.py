@@ -193,7 +193,7 @@ def _run(
     """
     with open_fmu(fmu):
         pass  # one that cannot be opened is no run failure, and nothing is made in `folder` for it
-    make_folder(folder, keep=False)
+    make_folder(folder)
     found: dict[str, dict[At, Golden]] = {scene.name: {} for scene in scenes}
     identity = identity_of(fmu)
     origins = {scene.name: provenance(identity, scene, folder) for scene in scenes}

@@ -114,7 +114,7 @@ def fit_command(
         raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
     measurements.refuse_known(given.settings)
     if out is not None:
-        make_folder(out, keep=False)
+        make_folder(out)
         sources = {f"the data {path.name}": path for path in data} | given.sources
         distinct({f"{name} of --out": out / name for name in FILES}, sources)
         if (out / "device.toml").exists() and not (out / "fit.html").exists():

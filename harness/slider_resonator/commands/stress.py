@@ -113,14 +113,13 @@ def stress_command(
     chosen = fmus or options.default_fmus()
     apply = [applicable(path, cases) for path in chosen]  # before any runs: it takes minutes
     if out is not None:
-        make_folder(out, keep=False)
+        make_folder(out)
     provenance = provenance_of(*chosen)
     results: list[StressResult] = []
 
     def keep(result: StressResult) -> None:
         results.append(result)
         if out is not None:
-            make_folder(out)
             write_results(results, out, provenance)
 
     def kept() -> str:

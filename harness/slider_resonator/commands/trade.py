@@ -108,11 +108,10 @@ def trade_command(
         noting_on_interrupt(lambda: f"{len(trades)} of {len(problems)} scenes are kept in {out}"),
         progress_bar() as progress,
     ):
-        make_folder(out, keep=False)
+        make_folder(out)
         for index, problem in enumerate(problems):
             part = part_of(progress, index, len(problems))
             trades.append(measure_trade(problem, instances, part, repeats=repeats, budget=budget))
-            make_folder(out)
             # After each scene, so that a later failure does not lose minutes of measurement.
             page, rows, omissions = tables.values()
             result.write_tables(rows, omissions, trades)

@@ -15,11 +15,6 @@ from slider_resonator.device.held_inputs import HeldInputs
 MAX_DENOMINATOR = 20
 """Largest number of drive periods that counts as a common period, by default."""
 
-MAX_DEVIATION = 1e-12
-"""Largest distance of a frequency ratio from p/q, relative to max(ratio, 1)."""
-_ENDED = 1e-9
-"""Share of a drive period that may be missing from one that counts as ended."""
-
 
 @dataclass(frozen=True)
 class DrivePeriods:
@@ -58,8 +53,8 @@ class DrivePeriods:
         return np.where(self.whole(times) >= 1.0, self.period, times)
 
     def whole(self, times: Array) -> Array:
-        """Return how many periods have ended by each time (s)."""
-        return np.asarray(np.floor(self.passed_by(times) + _ENDED))
+        """Return how many periods have ended by each time (s), but for 1e-9 of a period."""
+        return np.asarray(np.floor(self.passed_by(times) + 1e-9))
 
 
 def drive_periods(device: Device, held: Sequence[HeldInputs]) -> DrivePeriods:
@@ -80,5 +75,5 @@ def drive_periods(device: Device, held: Sequence[HeldInputs]) -> DrivePeriods:
 def common_period(frequency_ratio: float, max_denominator: int = MAX_DENOMINATOR) -> int | None:
     """Return the q of frequency_ratio = p/q in lowest terms, None where it exceeds the maximum."""
     fraction = Fraction(frequency_ratio).limit_denominator(max_denominator)
-    near = abs(float(fraction) - frequency_ratio) <= MAX_DEVIATION * max(1.0, abs(frequency_ratio))
+    near = abs(float(fraction) - frequency_ratio) <= 1e-12 * max(1.0, abs(frequency_ratio))
     return fraction.denominator if near else None

@@ -15,8 +15,6 @@ _TEXT = re.compile(
     rf"\s*(?P<unit>(?:1\s*/\s*)?{_UNIT}(?:\s*[*/]\s*{_UNIT})*)\s*"
 )
 """A number with a unit: what the library evaluates is no more than that."""
-_MISREAD = ("gr",)
-"""Units of the library (grains) that are not meant."""
 SHOWN = {"rad/s": "Hz", "rad": "deg"}
 """For an SI unit, the one in which engineers state such a value."""
 _EXAMPLES = {"rad/s": "20 kHz", "rad": "30 deg", "1": "2 %"}
@@ -59,7 +57,7 @@ def si_number(name: str, text: str, unit: str) -> float:
         match = _TEXT.fullmatch(text)
     number = "number" if unit == "1" else f"number in {unit}"
     must = f"must be a {number}, or a text with a unit such as {_EXAMPLES.get(unit, f'5 {unit}')!r}"
-    if match is None or match["unit"] in _MISREAD:
+    if match is None or match["unit"] == "gr":  # to the library grains, not grams
         raise ValueError(f"{name} = {text!r}: {must}")
     import pint
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.provenance import Provenance, provenance_html
-from slider_resonator.output.files import make_folder, write_csv, write_text
+from slider_resonator.output.files import write_csv, write_text
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.plot_style import png_data_uri, save
 from slider_resonator.output.table import Table, numbers, texts
@@ -31,7 +31,6 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     """Write `FILES` into a folder; return their paths."""
     paths = [folder / name for name in FILES]
     device, picture, table, page = paths
-    make_folder(folder)
     open_names = [one.name for one in fit.parameters if one.is_open]
     note = f"# left open by the data: {', '.join(open_names)}\n" if open_names else ""
     write_text(device, note + to_toml(fit.device, title))

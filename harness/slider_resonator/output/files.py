@@ -35,17 +35,10 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
     return path
 
 
-def make_folder(path: Path, *, keep: bool = True) -> None:
-    """Create a folder for results if it does not exist; HarnessError when that is impossible.
-
-    Without `keep` only try it: what is new is removed.
-    """
+def make_folder(path: Path) -> None:
+    """Create a folder for results if it does not exist; HarnessError when that is impossible."""
     with explained(f"{path}: cannot be made a folder: ", HarnessError):
-        new = [one for one in (path, *path.parents) if not one.exists()]
         path.mkdir(parents=True, exist_ok=True)
-    with suppress(OSError):
-        for one in () if keep else new:
-            one.rmdir()
 
 
 def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) -> None:

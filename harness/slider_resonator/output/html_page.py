@@ -11,10 +11,6 @@ from slider_resonator.output.files import replacing
 from slider_resonator.output.readable import printable
 from slider_resonator.output.table import Cell, Column, Style, Table
 
-MAX_COLUMNS = 3
-"""Columns of a table that fit on a phone; there the rows of a table with more become cards."""
-LONG = 18
-"""Characters from which on a cell has a line of its own on such a card."""
 PLOT = '<div class="plot">'
 """What begins a plot, which holds its data."""
 SCRIPTS = ("vendor/uPlot.iife.min.js", "hover_plot.js")
@@ -28,9 +24,9 @@ def escaped(text: str) -> str:
 
 
 def rendered(table: Table) -> str:
-    """Return the table as HTML: on a phone the rows of one with many columns are cards."""
+    """Return the table as HTML: on a phone the rows of one with over 3 columns are cards."""
     has_headings = any(column.heading for column in table.columns)
-    stacks = has_headings and len(table.columns) > MAX_COLUMNS
+    stacks = has_headings and len(table.columns) > 3
     body = "\n".join(f"<tr>{_row(row, table.columns, stacks)}</tr>" for row in table.cells)
     head = "".join(_element("th", Cell(column.heading), column) for column in table.columns)
     headings = f"<thead><tr>{head}</tr></thead>" if has_headings else ""
@@ -91,9 +87,9 @@ def _row(row: Sequence[Cell], columns: Sequence[Column], stacks: bool) -> str:
 
 
 def _element(tag: str, cell: Cell, column: Column, stacks: bool = False) -> str:
-    """Return a cell; one of a table that stacks carries its heading."""
+    """Return a cell; one of a table that stacks carries its heading, a long one has a line."""
     kinds = ["n"] if column.numeric else ["lines"] if "\n" in cell.text else []
-    kinds += ["long"] if stacks and len(cell.text) > LONG else []
+    kinds += ["long"] if stacks and len(cell.text) > 18 else []
     kind = f' class="{" ".join(kinds)}"' if kinds else ""
     heading = f' data-heading="{escaped(column.heading)}"' if stacks else ""
     note = f' title="{escaped(cell.note)}"' if cell.note else ""

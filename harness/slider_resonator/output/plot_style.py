@@ -9,11 +9,11 @@ from math import inf, pi
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.style import context
 
 from slider_resonator.arrays import Array
 from slider_resonator.output.files import replacing
@@ -55,10 +55,7 @@ def style() -> AbstractContextManager[None]:
 
     The settings of a user's own matplotlibrc do not show, nor does the backend change.
     """
-    defaults: dict[Any, Any] = {
-        key: mpl.rcParamsDefault[key] for key in mpl.rcParamsDefault if key != "backend"
-    }
-    return mpl.rc_context({**defaults, **_STYLE})
+    return context(_STYLE, after_reset=True)
 
 
 def save(figure: Figure, path: Path) -> None:

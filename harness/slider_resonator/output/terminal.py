@@ -52,8 +52,6 @@ STYLES: Mapping[Style, str] = {
     Style.HEADING: "bold",
     Style.NOTE: "dim",
 }
-MIN_PROSE = 20
-"""Columns of a text below which it is not wrapped further."""
 BETWEEN = 2
 """Columns between two columns of a table: padding and divider."""
 INDENT = "  "
@@ -80,7 +78,7 @@ def _fitted(table: Table, available: int) -> list[int] | None:
         width = max(map(cell_len, lines))
         longest_word = max((cell_len(word) for line in lines for word in line.split()), default=0)
         widths.append(width)
-        min_widths.append(width if column.numeric else min(width, max(MIN_PROSE, longest_word)))
+        min_widths.append(width if column.numeric else min(width, max(20, longest_word)))
     excess = sum(widths) + BETWEEN * len(widths) - available
     for index in sorted(range(len(widths)), key=lambda i: min_widths[i] - widths[i]):
         cut = min(widths[index] - min_widths[index], max(excess, 0))

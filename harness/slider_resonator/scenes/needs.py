@@ -33,10 +33,6 @@ class AllowedTable(KeyTable):
         unit="1",
     )
 
-    def __str__(self) -> str:
-        share = None if self.rel is None else f"{100.0 * self.rel:.10g} %"
-        return " + ".join(str(part) for part in (self.abs, share) if part is not None)
-
     def at(self, size: float) -> float:
         """Return the allowed error for a quantity of this size, both in the quantity's unit."""
         return (self.abs or 0.0) + (self.rel or 0.0) * abs(size)

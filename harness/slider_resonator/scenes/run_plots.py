@@ -46,9 +46,6 @@ ZOOMED = (
     ("force", 1.6, ("normal_force", "friction_force")),
 )
 """Label, height and outputs of each panel of these periods."""
-MIN_POINTS = 8
-"""Points per drive period below which they are not drawn."""
-
 
 Run = tuple[str, Record]
 """A run with its name in the legend."""
@@ -185,7 +182,7 @@ def run_figure(record: Record, scene: Scene) -> Figure:
     before: Array = passed - passed[-1]
     before = before[before >= -ZOOM_PERIODS * (1.0 + 1e-9)]
     gaps = np.diff(before)
-    resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= 1.0)
+    resolved = gaps.size > 0 and bool(np.max(gaps) <= 0.125)
     has_resonator = scene.device.resonator_mass > 0.0
     zoomed = [one for one in ZOOMED if resolved and (has_resonator or one[0] != "resonator")]
     given = {n: drawn(n, VARIABLES[n].unit, values) for n, values in record.given.items()}

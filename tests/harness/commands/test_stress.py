@@ -136,15 +136,3 @@ def test_what_cannot_run_exits_with_2_before_anything_runs(
     assert "no case applies to this FMU" in text
     assert ran == []
     assert not out.exists()
-
-
-def test_an_interruption_before_the_first_case_leaves_no_folder(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupted(*_: object, **__: object) -> StressResult:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(stress, "run_cases", interrupted)
-    ran = call("stress", native_fmu, "--out", tmp_path / "out", "--case", GOOD.name)
-    assert ran.exit_code == 130
-    assert not (tmp_path / "out").exists()

@@ -98,9 +98,6 @@ def test_measurements_before_an_error_or_an_interruption_are_kept(
     rows = list(csv.DictReader((tmp_path / "trade.csv").open(encoding="utf-8")))
     assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
     assert (tmp_path / "index.html").is_file()
-    first = call("trade", "lugre", "--out", tmp_path / "new", "--fmu", native_fmu)
-    assert first.exit_code == code
-    assert not (tmp_path / "new").exists()
 
 
 def test_public_keys(native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -89,10 +89,8 @@ def test_read_only_folder_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_a_folder_for_results_is_made_unless_a_file_is_there(tmp_path: Path) -> None:
-    make_folder(tmp_path / "paper" / "results", keep=False)
-    assert not (tmp_path / "paper").exists()
-    for keep in (True, False):
-        make_folder(tmp_path / "paper" / "results", keep=keep)
+    for _ in range(2):
+        make_folder(tmp_path / "paper" / "results")
         assert (tmp_path / "paper" / "results").is_dir()
     (tmp_path / "file").touch()
     for folder in ("file", "file/results"):
