@@ -207,7 +207,7 @@ def _draw_signals(
     def drawn(on: IsolatedFmu, label: str, varied: Scene) -> Run:
         interpolates = varied.schedule().interpolates and on.run(attrgetter("fmu.interpolates"))
         schedule = schedule_for_window(varied.interpolating(interpolates), window)
-        return label, _run(on, varied, schedule, progress)
+        return label, _run(on, varied, schedule, progress).table()
 
     runs = [drawn(isolated, fmu.name, scene)]
     for overlay in overlays:

@@ -61,11 +61,10 @@ class Drawable:
 
         Raises HarnessError where that cannot be written.
         """
-        # Imported here: drawing takes longer to load than most else.
-        from slider_resonator.output.plot_style import save
-
-        target = None if path is None else writable(str(path), PICTURE_SUFFIXES)
         figure = self.figure()
-        if target is not None:
-            save(figure, target)
+        if path is not None:
+            # Imported here: drawing takes longer to load than most else.
+            from slider_resonator.output.plot_style import save
+
+            save(figure, writable(str(path), PICTURE_SUFFIXES))
         return figure

@@ -47,10 +47,8 @@ ZOOMED = (
 )
 """Label, height and outputs of each panel of these periods."""
 
-Run = tuple[str, Record]
-"""A run with its name in the legend."""
-_Shown = tuple[str, Mapping[str, Array]]
-"""The same, with the part of its table that is drawn."""
+Run = tuple[str, Mapping[str, Array]]
+"""A run: its name in the legend, and its table as that of a `Record`."""
 Window = tuple[float, float]
 """The beginning and the end of the time that is drawn, s."""
 
@@ -88,7 +86,6 @@ def schedule_for_window(scene: Scene, window: Window) -> Schedule:
 
 
 def _periods_in(window: Window, drive: DrivePeriods) -> float:
-    """Return how many drive periods pass in a window (s)."""
     begin, end = drive.passed_by(np.array(window)).tolist()
     return float(end - begin)
 
@@ -101,12 +98,11 @@ def plot_signals(
     With several runs a panel below that of an output has the others less the first. Raises
     HarnessError for a signal that a run does not have.
     """
-    shown: list[_Shown] = []
-    for label, record in runs:
-        table: Mapping[str, Array] = record.table()
+    shown: list[Run] = []
+    for label, table in runs:
         if missing := [name for name in signals if name not in table]:
             raise HarnessError(f"--signals: {', '.join(missing)}: {label} has no such output")
-        inside = (record.times >= window[0]) & (record.times <= window[1])
+        inside = (table["time"] >= window[0]) & (table["time"] <= window[1])
         shown.append((label, {name: values[inside] for name, values in table.items()}))
     are_compared = len(runs) > 1 and _same_times(shown)
     compared = ALL_OUTPUTS.keys() - {"contact_mode"} if are_compared else ()
@@ -137,7 +133,7 @@ def plot_signals(
 
 
 def _panel(
-    axes: Axes, shown: Sequence[_Shown], name: str, time_factor: float, *, differences: bool
+    axes: Axes, shown: Sequence[Run], name: str, time_factor: float, *, differences: bool
 ) -> None:
     curves = [table[name] for _, table in shown]
     if differences:
@@ -164,7 +160,7 @@ def _panel(
         axes.set(ylabel="contact")
 
 
-def _same_times(shown: Sequence[_Shown]) -> bool:
+def _same_times(shown: Sequence[Run]) -> bool:
     times = [table["time"] for _, table in shown]
     return all(np.array_equal(one, times[0]) for one in times)
 

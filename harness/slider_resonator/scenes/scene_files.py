@@ -75,10 +75,8 @@ def _scenes_of(name_or_file: str, *, folders: bool = False) -> Sequence[Scene]:
         also = " or a directory with scene files (*.toml)" if folders else ""
         raise SceneError(f"{path}: is a directory; must be a scene file, a built-in scene{also}")
     file, _, name = name_or_file.partition("#")
-    if not path.is_file() and name and Path(file).is_file():
-        return read_scenes(Path(file), name)
-    if path.is_file():
-        return read_scenes(path)
+    if Path(file).is_file():
+        return read_scenes(Path(file), name or None)
     if path.suffix or len(path.parts) > 1:
         raise SceneError(
             f"{path}: no such scene file; `slider-resonator scenes` lists those built in"

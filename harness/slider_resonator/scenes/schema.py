@@ -6,10 +6,11 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from slider_resonator.device.interface import SETTABLE, TUNABLES, settable_value
+from slider_resonator.device.interface import SETTABLE, TUNABLES, VARIABLES, settable_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.key_table import (
+    PARAMETER_MEANINGS,
     KeyTable,
     Line,
     NotNegative,
@@ -96,6 +97,10 @@ class InputsTable(KeyTable):
     )
 
 
+def _tuned(name: str, example: Any) -> Any:
+    return key(PARAMETER_MEANINGS[name], example, unit=VARIABLES[name].unit)
+
+
 class TuningTable(KeyTable):
     """Tunable parameters over time, given as inputs are; those left out stay as in [device]."""
 
@@ -104,22 +109,12 @@ class TuningTable(KeyTable):
         "Its value at the start of the run is that of the device.",
     )
 
-    normal_preload: InputTable | None = key(
-        "mean normal load of a face", {"steps": [[0.0, 1.0], [0.02, 1.4]]}, unit="N"
-    )
-    normal_amplitude: InputTable | None = key(
-        "amplitude of the normal load of a face", {"ramp": [[0.0, 1.0], [0.1, 0.5]]}, unit="N"
-    )
-    base_amplitude: InputTable | None = key(
-        "amplitude of the base excitation", {"steps": [[0.0, 1e-4], [0.05, 2e-4]]}, unit="m"
-    )
-    drive_frequency: InputTable | None = key(
-        "angular frequency of the drive", {"steps": [[0.0, 3500.0], [0.05, 3600.0]]}, unit="rad/s"
-    )
-    tangential_force: InputTable | None = key("amplitude of the direct drive", 0.5, unit="N")
-    friction_coefficient: InputTable | None = key(
-        "friction coefficient", {"csv": "friction.csv", "column": "mu"}, unit="1"
-    )
+    normal_preload: InputTable | None = _tuned("normal_preload", {"steps": [[0, 1], [0.02, 1.4]]})
+    normal_amplitude: InputTable | None = _tuned("normal_amplitude", {"ramp": [[0, 1], [0.1, 0.5]]})
+    base_amplitude: InputTable | None = _tuned("base_amplitude", {"ramp": [[0, 1e-4], [1, 2e-4]]})
+    drive_frequency: InputTable | None = _tuned("drive_frequency", {"ramp": [[0, 3500], [1, 3600]]})
+    tangential_force: InputTable | None = _tuned("tangential_force", 0.5)
+    friction_coefficient: InputTable | None = _tuned("friction_coefficient", {"csv": "mu.csv"})
 
 
 class RunTable(KeyTable):

@@ -72,18 +72,15 @@ _FAULTS_OF_RUN: Mapping[str, str] = {
     "rate_differences": "outputs that differ where derivatives of inputs are set in another order, "
     "or only at the corners of lines",
     "other_device_differences": "outputs that differ after runs of devices with another parameter",
-    "refusal_faults": "values and calls that must be refused, by name and without a trace in the "
-    "run, and are not",
+    "refusal_faults": "values and calls that are not refused by name, without a trace in the run",
 }
 """Counts of values that differ, or of calls that go wrong, in a run."""
 _FAULTS: Mapping[str, str] = {
     "start_faults": "variables without their described start, or that do not keep what is set",
     "description_faults": "differences of the model description from the interface",
     "dependency_faults": "outputs on which a variable acts that is not among their dependencies",
-    "device_faults": "devices without a meaning that are not refused by name, at the start and in "
-    "a run",
-    "experiment_faults": "experiments with sums of steps, tolerances and other start times that "
-    "are refused or change the motion",
+    "device_faults": "devices without a meaning that are not refused by name",
+    "experiment_faults": "sums of steps, tolerances and start times that change the motion",
     "host_faults": "wrong answers about the FMU itself: versions, instances that must not be made, "
     "disturb each other or stay in memory, logging, event mode, what it changes in its process",
     "state_faults": "states that are got again, damaged, outlive a process or a run or are "

@@ -89,7 +89,7 @@ def test_each_signal_has_a_panel(instance: Instance, tmp_path: Path, drawn: list
     scene = built_in()["changing_inputs"]
     record = run(instance, scene.parameters, schedule_for_window(scene, WINDOW))
     names = ("velocity", "load", "contact_mode")
-    plot_signals([("a", record)], scene, names, WINDOW, tmp_path / "a.png")
+    plot_signals([("a", record.table())], scene, names, WINDOW, tmp_path / "a.png")
     velocity, load, contact = drawn[0].axes
     assert velocity.get_ylabel() == "velocity\n[mm/s]"
     assert load.get_ylabel() == "load\n[mN]"
@@ -112,7 +112,7 @@ def test_differences_are_drawn(instance: Instance, tmp_path: Path, drawn: list[F
     for fidelity in (2, 1):
         varied = scene.with_values({"fidelity": fidelity})
         records.append(run(instance, varied.parameters, schedule_for_window(varied, WINDOW)))
-    runs = [("a", records[0]), ("b", records[1])]
+    runs = [("a", records[0].table()), ("b", records[1].table())]
     signals = ("mean_velocity", "phase", "contact_mode")
     plot_signals(runs, scene, signals, WINDOW, tmp_path / "a.png")
     labels = [axes.get_ylabel().split("\n")[0] for axes in drawn[0].axes]
