@@ -58,10 +58,7 @@ class DrivePeriods:
 
 
 def drive_periods(device: Device, held: Sequence[HeldInputs]) -> DrivePeriods:
-    """Return the drive periods of a run of a device through inputs, which may tune its drive.
-
-    `period` is that of the device.
-    """
+    """Return the drive periods of a run of a device through inputs, which may tune its drive."""
     rates = [device.tuned(inputs.tuned).drive_frequency for inputs in held]
     period = tau / device.drive_frequency
     if set(rates) == {device.drive_frequency}:

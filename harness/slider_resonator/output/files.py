@@ -42,10 +42,7 @@ def make_folder(path: Path) -> None:
 
 
 def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) -> None:
-    """Check that no target, by its option's name, is a source or another target.
-
-    Raises HarnessError for one that is.
-    """
+    """Raise HarnessError for a target, by its option's name, that is a source or another target."""
     taken = dict(sources)
     for option, path in targets.items():
         if path is None:

@@ -9,8 +9,6 @@ from typing import Any
 
 from slider_resonator.errors import HarnessError
 
-_TABLES = ("work (kind TEXT, digest TEXT)", "entries (number INTEGER PRIMARY KEY, entry TEXT)")
-
 
 class Journal(AbstractContextManager["Journal"]):
     """An SQLite file of entries, which JSON can write, and of the work that they belong to.
@@ -36,8 +34,8 @@ class Journal(AbstractContextManager["Journal"]):
             self._file.execute("PRAGMA locking_mode = EXCLUSIVE")
             self._file.execute("BEGIN EXCLUSIVE")
             if is_new:
-                for table in _TABLES:
-                    self._file.execute(f"CREATE TABLE {table}")
+                self._file.execute("CREATE TABLE work (kind TEXT, digest TEXT)")
+                self._file.execute("CREATE TABLE entries (number INTEGER PRIMARY KEY, entry TEXT)")
                 self._file.execute("INSERT INTO work VALUES (?, ?)", (work, digest))
             ((kind, found),) = self._file.execute("SELECT kind, digest FROM work")
             if kind != work:

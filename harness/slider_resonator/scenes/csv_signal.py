@@ -12,8 +12,6 @@ from slider_resonator.device.signal import Signal, through
 from slider_resonator.device.units import finite_number, scaled, si_number
 from slider_resonator.errors import explained
 
-SEPARATORS = (";", "\t")
-"""What programs write between two columns where numbers may have a decimal comma."""
 _HEADING = re.compile(r"\s*(.*?)\s*[\[(]([^\])]*)[\])]\s*")
 
 
@@ -31,15 +29,16 @@ def _text(path: Path) -> str:
 def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the header of a CSV file, and its other rows with their line numbers.
 
-    Columns are apart by commas, or by what the header has of `SEPARATORS`. Lines that begin with #
-    and rows without a value are left out. Raises ValueError naming the file and what is wrong, also
-    for a row that has more cells than the header.
+    Columns are apart by semicolons or tabs if the header has some, and numbers may then have a
+    decimal comma; else by commas. Lines that begin with # and rows without a value are left out.
+    Raises ValueError naming the file and what is wrong, also for a row that has more cells than the
+    header.
     """
     try:
         file = io.StringIO(_text(path), newline="")
         lines = [(n, line) for n, line in enumerate(file, 1) if not line.startswith("#")]
         first = lines[0][1] if lines else ""
-        separator = next((one for one in SEPARATORS if one in first), ",")
+        separator = next((one for one in (";", "\t") if one in first), ",")
         reader = csv.reader((line for _, line in lines), delimiter=separator)
         read = ((lines[reader.line_num - 1][0], row) for row in reader)
         rows = [(line, row) for line, row in read if any(cell.strip() for cell in row)]

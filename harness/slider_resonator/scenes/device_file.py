@@ -27,10 +27,7 @@ _KINDS: Mapping[str, tuple[set[str], str]] = {
 
 
 def refuse_other_kinds(content: Mapping[str, Any], source: str, expected: str) -> None:
-    """Raise SceneError if the content of a file is that of a scene, grid or device, not `expected`.
-
-    The message has the command that the file is for.
-    """
+    """Raise SceneError for the content of a scene, grid or device file that is not `expected`."""
     found = next((kind for kind, (keys, _) in _KINDS.items() if content.keys() & keys), expected)
     if found != expected:
         use = _KINDS[found][1].format(source)

@@ -206,10 +206,9 @@ def run_figure(record: Record, scene: Scene) -> Figure:
             one = given[name]
             panel.step(time.values, one.values, where="post", color=COLOURS["slow"])
             panel.set(ylabel=f"{one.words}\n[{one.unit}]")
-        for panel in (axes[1], *inputs):
-            panel.set(xlabel=time.label)
         for panel in (*axes[:2], *inputs):
             panel.set(xlim=(time.values[0], time.values[-1]))
+            panel.set(xlabel="" if panel is axes[0] else time.label)
         figure.align_ylabels(axes)
     return figure
 

@@ -49,10 +49,6 @@ _INHERITED = (
     *("abs", "absolute", "value", "at_most", "at_least"),
 )
 """Keys of values whose unit is that of the table they are in."""
-_NEED = re.compile(r"need\.\w+")
-"""The path of a needed quantity."""
-_POINT = re.compile(r"\.(steps|ramp)\[\d+\]$")
-"""The end of the path of a pair [time, value]."""
 
 
 def _in_si(value: Any, path: str = "", unit: str = "") -> Any:
@@ -64,7 +60,7 @@ def _in_si(value: Any, path: str = "", unit: str = "") -> Any:
     if path.endswith("device"):
         return value  # its schema reads units
     if isinstance(value, str):
-        if _NEED.fullmatch(path):
+        if re.fullmatch(r"need\.\w+", path):
             return value  # it must be a table
         is_number = unit and re.search(HAS_UNIT, value) and not value.lower().endswith(".csv")
         return si_number(path, value, unit) if is_number else value
@@ -79,7 +75,8 @@ def _in_si(value: Any, path: str = "", unit: str = "") -> Any:
         }
     if not isinstance(value, list | tuple):
         return value
-    first = "s" if _POINT.search(path) else unit
+    # The first of a pair is a time.
+    first = "s" if re.search(r"\.(steps|ramp)\[\d+\]$", path) else unit
     return [_in_si(one, f"{path}[{k + 1}]", unit if k else first) for k, one in enumerate(value)]
 
 
