@@ -290,7 +290,7 @@ def test_trade_is_a_function(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) 
     }
     (measured,) = sr.trade(scene, native_fmu, periods=2, repeats=1, budget=0.01)
     assert len(measured.table()["method"]) == len(measured.rows) > 0
-    assert "position within 1 %" in repr(measured)
+    assert "at an error of 1 % in mean velocity" in repr(measured)
 
 
 def test_lines_that_do_not_fit_a_screen_are_counted() -> None:

@@ -10,7 +10,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folder
 from slider_resonator.output.progress import part_of, progress_bar
-from slider_resonator.output.readable import number_of, one_line
+from slider_resonator.output.readable import one_line
 from slider_resonator.trading import result
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trade, opened
 from slider_resonator.trading.page import draw_picture, write_trades
@@ -120,13 +120,7 @@ def trade_command(
         draw_picture(trades[0], picture)
     for page in pages:
         result.write_choices(page, trades)
-    lines = []
-    for trade in trades:
-        lines.append(one_line(trade.heading))
-        for heading, sentences in result.comparisons(trade):
-            lines += [f"  {one_line(heading)}", *(f"    {one_line(one)}" for one in sentences)]
-        omitted = number_of(len(trade.omissions), "omission")
-        lines.append(f"  {number_of(len(trade.rows), 'row')}, {omitted}")
+    lines = [one_line(line) for trade in trades for line in trade.describe()]
     written = [*tables.values(), *([] if picture is None else [picture]), *pages]
     lines.append(f"written {one_line(', '.join(map(str, written)))}")
     entries = [{"trade": trade, "standings": result.standings(trade)} for trade in trades]

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from math import ceil
 from operator import attrgetter
 from time import process_time
@@ -29,7 +29,7 @@ LEAP_STEP = 1000.0
 """The step for other tolerances of leaps."""
 LEAP_TOLERANCES = (1e-5, 1e-6, 1e-7)
 """Of motion that leaps, besides the usual one."""
-AVERAGING_ORDERS = (2, 1)
+AVERAGING_ORDERS: tuple[int | None, ...] = (2, 1)
 OUTPUTS = ("position", "velocity", "mean_velocity")
 SHORTEST = 2e-3
 """Shortest CPU time (s) of a measurement; shorter runs are repeated up to MAX_RUNS times."""
@@ -43,11 +43,11 @@ class FmuMethods:
         self.problem = problem
         self.build = build
         self.fmu = fmu
-
-    @cached_property
-    def orders(self) -> tuple[int | None, ...]:
-        """The orders of averages from which the FMU has a choice, highest first; else None."""
-        return AVERAGING_ORDERS if self.fmu.run(attrgetter("fmu.has_orders")) else (None,)
+        self.interpolates: bool = fmu.run(attrgetter("fmu.interpolates"))
+        has_orders = fmu.run(attrgetter("fmu.has_orders"))
+        self.orders = AVERAGING_ORDERS if has_orders else (None,)
+        own = problem.device.friction_law
+        self.models = [Model(2, own), Model(1, own), *(Model(0, own, n) for n in self.orders)]
 
     def _run(self, task: Callable[..., Any], **arguments: Any) -> Any:
         """Return the CPU time (s) of `task(instance, ...)` in the FMU's process, and its result."""
@@ -61,7 +61,7 @@ class FmuMethods:
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
         own = self.problem.device.friction_law
-        for model in self._models():
+        for model in self.models:
             for step in STEPS:
                 yield self._method(model, step, USUAL_TOLERANCE)
             yield self._method(replace(model, friction_law=1 - own), USUAL_STEP, USUAL_TOLERANCE)
@@ -70,24 +70,13 @@ class FmuMethods:
             for tolerance in LEAP_TOLERANCES if model.leaps else ():
                 yield self._method(model, LEAP_STEP, tolerance)
 
-    def _models(self) -> list[Model]:
-        """Return the models under the friction law of the device."""
-        own = self.problem.device.friction_law
-        return [Model(2, own), Model(1, own), *(Model(0, own, order) for order in self.orders)]
-
-    @property
     def answers(self) -> Iterator[SteadyMethod]:
-        """The searches for steady motion and blocking force, and the outputs of theory."""
+        """Yield the searches for steady motion and blocking force, and the outputs of theory."""
         for quantity in SEARCHES:
-            for model in self._models():
+            for model in self.models:
                 yield self._search(quantity, model)
             for order in self.orders:
                 yield self._prediction(quantity, order)
-
-    @cached_property
-    def interpolates(self) -> bool:
-        """Whether the FMU takes derivatives of inputs."""
-        return bool(self.fmu.run(attrgetter("fmu.interpolates")))
 
     def _values(self, model: Model, tolerance: float) -> dict[str, float]:
         return {**self.problem.parameters, **model.parameters, "tolerance": tolerance}
@@ -154,14 +143,14 @@ class FmuMethods:
 
     def _prediction(self, quantity: str, order: int | None) -> SteadyMethod:
         """Return the value of an output that predicts, at the start of a run at fidelity 2."""
-        law = self.problem.device.friction_law
-        model = Model(2, law, order)
+        model = replace(self.models[0], averaging_order=order)
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
         family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
 
         def find(_: float) -> SteadyAnswer:
             return SteadyAnswer(*self._run(_value_at_start, values=values, output=quantity))
 
+        law = model.friction_law
         row = Row(AVERAGED, family, family, law, averaging_order=order, answer=quantity)
         return SteadyMethod(row, find)
 

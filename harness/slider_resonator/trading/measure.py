@@ -25,7 +25,7 @@ from slider_resonator.steady.searches import SEARCHES
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods, shoot
 from slider_resonator.trading.problem import Method, Problem, Readings, SteadyMethod, solution_of
-from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
+from slider_resonator.trading.result import Omission, Row, Trade
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""
@@ -36,9 +36,6 @@ SHOOTING = 1e-10
 """Accuracy of the steady state in units of its scale."""
 
 _FAILURES = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuError)
-
-_Notes = dict[tuple[str, str], str]
-"""Method and quantity to the reason why there is no such row or error."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +105,7 @@ def measure_trade(
         label = f"{problem.name}: {counted(row.method, index, count)}"
         progress(label, begin + share * index / count)
 
-    notes: _Notes = {}
+    omissions: list[Omission] = []
     candidates: list[_Candidate] = []
     # The error of a result covers what scipy warns of on the way to it.
     with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
@@ -118,24 +115,20 @@ def measure_trade(
         for fmu in fmus:
             fmu.check_runs()
         methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
-        answers = [answer for fmu in fmus for answer in fmu.answers]
+        answers = [answer for fmu in fmus for answer in fmu.answers()]
         answers += [answer for method in methods for answer in method.answers]
         given = (problem, reference, budget)
-        tried = [(one.row, partial(_follow, *given, one, notes)) for one in methods]
+        tried = [(one.row, partial(_follow, *given, one, omissions)) for one in methods]
         tried += [(one.row, partial(_answer, *given, one)) for one in answers]
         for index, (row, measured) in enumerate(tried):
             report(row, index, len(tried), 0.0, 0.6)
-            quantity = "all" if row.answer == "run" else row.answer
             try:
                 candidates.append(measured())
             except FmuDied:
                 raise
             except _FAILURES as error:
-                notes.setdefault((row.method, quantity), str(error))
-        for method in methods:
-            for quantity in SEARCHES:
-                if quantity in method.missing:
-                    notes.setdefault((method.row.method, quantity), method.missing[quantity])
+                quantity = "all" if row.answer == "run" else row.answer
+                omissions.append(Omission(problem.name, row.method, quantity, str(error)))
         # In rounds: in each of them every candidate with repeats left.
         counts = [min(repeats, int(budget / max(first, 1e-9))) for _, _, first in candidates]
         turns = sorted((turn, index) for index, n in enumerate(counts) for turn in range(n))
@@ -152,16 +145,16 @@ def measure_trade(
         periods=problem.periods,
         simulated=problem.duration(problem.periods),
         rows=tuple(replace(row, cpu=tuple(again or row.cpu)) for (row, *_), again in pairs),
-        omissions=tuple(Omission(problem.name, *key, reason) for key, reason in notes.items()),
+        omissions=tuple(omissions),
     )
 
 
 def _follow(
-    problem: Problem, reference: Reference, budget: float, method: Method, notes: _Notes
+    problem: Problem, reference: Reference, budget: float, method: Method, omissions: list[Omission]
 ) -> _Candidate:
-    """Run a method as far as its budget (s of CPU time) takes it; ValueError where it has no run.
+    """Run a method as far as its budget (s of CPU time) takes it; add what it does not report.
 
-    Besides it raises one of `_FAILURES`.
+    Raises ValueError where it has no run, besides one of `_FAILURES`.
     """
     if method.min_periods > problem.periods:
         raise ValueError(f"a step is longer than the run of {problem.periods} drive periods")
@@ -182,16 +175,15 @@ def _follow(
         if further / periods * taken > budget:
             break
     found = problem.errors(solution, reference.windows, periods)
+    missing = dict(method.missing)
     if periods < problem.periods:
-        notes[method.row.method, "length"] = (
+        missing["length"] = (
             f"followed over {periods} of {problem.periods} drive periods: the next longer run "
             f"would exceed its budget of {budget:g} s of CPU time"
         )
-    optional = {"beat_frequency": problem.beat, "event_times": reference.windows.get("last_event")}
-    for quantity in QUANTITIES:
-        if quantity not in (*SEARCHES, *found) and optional.get(quantity, ()) is not None:
-            reason = "its own steps are too long or its run too short"
-            notes[method.row.method, quantity] = method.missing.get(quantity, reason)
+    if problem.beat is not None and "beat_frequency" not in found:
+        missing["beat_frequency"] = "its own steps are too long or its run too short"
+    omissions += [Omission(problem.name, method.row.method, *pair) for pair in missing.items()]
     simulated = problem.duration(periods)
     row = replace(
         method.row,

@@ -54,18 +54,8 @@ def work_precision_plot(rows: Sequence[Row], quantity: str) -> HoverPlot:
 
 
 def _note(row: Row) -> str:
-    lines = [
-        row.method,
-        f"CPU time {duration(row.cost)} ({duration(min(row.cpu))} to {duration(max(row.cpu))})",
-    ]
-    if row.step is not None:
-        lines.append(f"step {row.step:g} drive periods")
-    if row.tolerance is not None:
-        lines.append(f"tolerance {row.tolerance:g}")
-    lines.append(f"{row.periods} drive periods")
-    counts = {"steps": row.steps, "evaluations": row.evaluations, "events": row.events}
-    lines += [f"{count} {name}" for name, count in counts.items() if count is not None]
-    return "\n".join(lines)
+    pairs = zip(_COLUMNS, _cells(row), strict=True)
+    return "\n".join(f"{column.heading}: {cell}" for column, cell in pairs if cell)
 
 
 _COLUMNS = (

@@ -103,14 +103,12 @@ class Trade(Shown, Tabular):
         return {name: [row[i] for row in cells] for i, name in enumerate(COLUMNS)}
 
     def describe(self) -> list[str]:
-        """Return the scene, and for each quantity the cheapest method within 1 %."""
-        counts = f"{number_of(len(self.rows), 'row')}, {number_of(len(self.omissions), 'omission')}"
-        lines = [f"{self.scene}: {number_of(self.periods, 'drive period')}, {counts}"]
-        for quantity in QUANTITIES:
-            row = cheapest(self.candidates(quantity), quantity, 1e-2)
-            if row is not None:
-                lines.append(f"{quantity} within 1 %: {row.method}, {row.cost:.3g} s of CPU time")
-        return lines
+        """Return the scene, the cheapest methods of each class at each target, and counts."""
+        lines = [self.heading]
+        for target, sentences in comparisons(self):
+            lines += [f"  {target}", *(f"    {sentence}" for sentence in sentences)]
+        omitted = number_of(len(self.omissions), "omission")
+        return [*lines, f"  {number_of(len(self.rows), 'row')}, {omitted}"]
 
     def having(self, quantity: str) -> list[Row]:
         """Return the rows with an error of this quantity."""
@@ -211,12 +209,10 @@ def standings(trade: Trade) -> list[Standing]:
     return found
 
 
-def sentence(standing: Standing) -> str:
-    """Return a standing in words."""
-    name = CLASSES[standing.kind]
-    if standing.row is None:
+def _sentence(standing: Standing) -> str:
+    row, name = standing.row, CLASSES[standing.kind]
+    if row is None:
         return f"{name}: not reached"
-    row = standing.row
     words = f"{name}: {duration(row.cost)} a simulated second ({row.method})"
     if standing.ratio is None or standing.kind == RESOLVED:
         return words
@@ -233,7 +229,7 @@ def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:
     for one in standings(trade):
         size = f"{100.0 * one.error:g} %" if one.error >= 1e-3 else f"{one.error:.0e}"
         target = f"at an error of {size} in {one.quantity.replace('_', ' ')}"
-        by_target.setdefault(target, []).append(sentence(one))
+        by_target.setdefault(target, []).append(_sentence(one))
     return list(by_target.items())
 
 
