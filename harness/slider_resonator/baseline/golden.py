@@ -8,7 +8,6 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TypeVar
 
 import numpy as np
@@ -19,7 +18,7 @@ from slider_resonator.checks.measuring import Measurement, measure
 from slider_resonator.checks.validate import Judged
 from slider_resonator.errors import HarnessError, SceneError, explained, unknown_name
 from slider_resonator.fmu.provenance import FmuIdentity, provenance_of, provenance_properties
-from slider_resonator.output.files import write_csv
+from slider_resonator.output.files import make_folder, write_csv
 from slider_resonator.scenes.csv_signal import csv_rows
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.scene_files import built_in_scenes
@@ -194,36 +193,16 @@ def key(at: Mapping[str, float]) -> At:
 
 
 def write_recorded(folder: Path, recorded: Recorded) -> None:
-    """Write the files of a scene in place of earlier ones, all of them or none.
+    """Write the files of a scene in place of earlier ones, that of the provenance last.
 
     Raises HarnessError when the folder cannot be written.
     """
-    with explained(f"{folder}: cannot be written: ", HarnessError):
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
-            fresh = Path(temporary) / folder.name
-            fresh.mkdir()
-            for name, rows in _tables(recorded).items():
-                if rows or name != TRAJECTORY:
-                    write_csv(fresh / name, HEADERS[name], rows)
-            replace_folder(fresh, folder)
-
-
-def replace_folder(fresh: Path, folder: Path) -> None:
-    """Move a folder to the place of another, if there is one; OSError when that fails.
-
-    The other one is then still there.
-    """
-    with TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
-        before = Path(temporary) / folder.name
-        if folder.exists():
-            folder.rename(before)
-        try:
-            fresh.rename(folder)
-        except OSError:
-            if before.exists():
-                before.rename(folder)
-            raise
+    make_folder(folder)
+    for name, rows in _tables(recorded).items():
+        if rows or name != TRAJECTORY:
+            write_csv(folder / name, HEADERS[name], rows)
+        else:
+            (folder / name).unlink(missing_ok=True)
 
 
 def read_recorded(folder: Path) -> Recorded:
@@ -247,8 +226,7 @@ def read_recorded(folder: Path) -> Recorded:
 
 def recorded_scenes(folder: Path) -> list[Path]:
     """Return the folders of the scenes that are recorded, in alphabetical order."""
-    found = [path.parent for path in folder.glob(f"*/{PROVENANCE}")]
-    return sorted(path for path in found if not path.name.startswith("."))
+    return sorted(path.parent for path in folder.glob(f"*/{PROVENANCE}"))
 
 
 def _tables(recorded: Recorded) -> dict[str, list[Sequence[str]]]:

@@ -22,13 +22,12 @@ from slider_resonator.baseline.golden import (
     provenance,
     read_recorded,
     recorded_scenes,
-    replace_folder,
     scene_digest,
     write_recorded,
 )
 from slider_resonator.checks.compare import Comparison
 from slider_resonator.checks.validate import Judged, RunFailure, Validation, judge_points
-from slider_resonator.errors import HarnessError, SceneError, explained, unknown_name
+from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of, identity_of
@@ -142,16 +141,17 @@ def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
         return ()
     with open_fmu(fmu):
         digest = digest_of(fmu)
-    for name in chosen:
-        checked = read_recorded(waiting[name]).provenance
+    changed = {name: read_recorded(waiting[name]) for name in chosen}
+    for recorded in changed.values():
+        checked = recorded.provenance
         if checked.get(FMU_DIGEST) != digest:
             raise HarnessError(
                 f"{fmu}: not the FMU that was last checked, which was {checked.get('fmu')} with "
                 f"SHA-256 {checked.get(FMU_DIGEST)}; check this one first"
             )
-    for name in chosen:
-        with explained(f"{folder / name}: cannot be written: ", HarnessError):
-            replace_folder(waiting[name], folder / name)
+    for name, recorded in changed.items():
+        write_recorded(folder / name, recorded)
+        shutil.rmtree(waiting[name], ignore_errors=True)
     return chosen
 
 

@@ -18,7 +18,6 @@ from slider_resonator.baseline.golden import (
     key,
     read_recorded,
     recorded_scenes,
-    replace_folder,
     scene_digest,
     write_recorded,
 )
@@ -186,11 +185,3 @@ def test_a_line_without_sense_is_named(tmp_path: Path, name: str, row: str, reas
     (tmp_path / "mine" / "numbers.csv").unlink()
     with pytest.raises(HarnessError, match=r"numbers.csv cannot be read"):
         read_recorded(tmp_path / "mine")
-
-
-def test_results_stay_where_others_cannot_take_their_place(tmp_path: Path) -> None:
-    write_recorded(tmp_path / "mine", RECORDED)
-    with pytest.raises(FileNotFoundError):
-        replace_folder(tmp_path / "removed meanwhile", tmp_path / "mine")
-    assert read_recorded(tmp_path / "mine").provenance == RECORDED.provenance
-    assert [path.name for path in tmp_path.iterdir()] == ["mine"]
