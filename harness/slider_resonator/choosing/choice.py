@@ -39,11 +39,6 @@ PROBES = {
 """What errors are against, in words."""
 
 
-def error_text(error: float) -> str:
-    """Return a measured error for people."""
-    return f"{error:.3g}" if isfinite(error) else "no bound"
-
-
 def uses_tolerance(model: Model) -> bool:
     """Whether a model integrates a bristle or leaps over periods; else its accuracy is its own."""
     return model.leaps or (model.friction_law == LUGRE and model.fidelity > 0)
@@ -99,7 +94,6 @@ class Evaluation:
         return f"{self.worst}: {estimate.reason}"
 
     def _share(self, name: str) -> float:
-        """Return an error over the allowed one; a relative one of 0 allows 0 only."""
         return share_of(self.estimates[name].error, self.allowed[name])
 
 
@@ -202,9 +196,8 @@ class Choice(Shown, Tabular):
 
     def describe(self) -> list[str]:
         """Return what was chosen, how it meets each need, and what was ruled out."""
-        needs = [
-            f"need     {name}: error {error_text(error)}, allowed {allowed:.3g} {unit}"
-            for name, error, allowed, unit in zip(*self.table().values(), strict=True)
-        ]
-        others = [f"not      {one.name}: {one.why}" for one in self.ruled_out]
-        return [*self.sentences(), *needs, *others]
+        lines = self.sentences()
+        for name, error, allowed, unit in zip(*self.table().values(), strict=True):
+            found = f"{error:.3g}" if isfinite(error) else "no bound"
+            lines.append(f"need     {name}: error {found}, allowed {allowed:.3g} {unit}")
+        return [*lines, *(f"not      {one.name}: {one.why}" for one in self.ruled_out)]

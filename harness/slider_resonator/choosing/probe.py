@@ -181,6 +181,8 @@ class Probe:
         self.finest = Candidate(self.reference_model, 1e-13, None)
         leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
         self._leaps = [Candidate(leaps, tolerance, None) for tolerance in LEAP_TOLERANCES]
+        self.no_beat = lacking_beat(scene) if "beat" in self.run_needs else ""
+        """Reason why a run shows no beat; empty where it shows one or none is needed."""
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
         self.ladder: tuple[float | None, ...] = self._steps() if self.run_needs else (None,)
         self._finest_step = self.ladder[-1] or self.duration
@@ -264,11 +266,6 @@ class Probe:
         if self.varying or "beat" in self.run_needs or self.duration <= MAX_STEPS * step:
             return 1
         return ceil(self.duration / step / MAX_STEPS) | 1
-
-    @cached_property
-    def no_beat(self) -> str:
-        """The reason why a run shows no beat; empty where it shows one or none is needed."""
-        return lacking_beat(self.scene) if "beat" in self.run_needs else ""
 
     def reference(self, step: float) -> Record:
         """Return what candidates with this step (s) are compared with.

@@ -4,13 +4,11 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT, choose
 from slider_resonator.commands import options
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result
 from slider_resonator.output.progress import progress_bar
-from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.needs import AllowedTable, allowed_error
 
 
@@ -75,13 +73,5 @@ def choose_command(
     provenance = provenance_of(fmu)
     with progress_bar() as progress:
         choice = choose(read, fmu, time_limit, progress)
-    rows = [
-        (name, error_text(error), f"{allowed:.3g}", unit)
-        for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
-    ]
-    columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
-    others = [(one.name, one.why) for one in choice.ruled_out]
-    ruled_out = [Table(texts("ruled out", "why"), others)] if others else []
-    tables = (Table(columns, rows), *ruled_out)
-    print_result(choice, choice.sentences(), *tables, as_json=as_json, provenance=provenance)
+    print_result(choice, choice.describe(), as_json=as_json, provenance=provenance)
     return 0 if choice.meets else 1
