@@ -1,16 +1,16 @@
 """Our FMUs as methods: every fidelity, friction law, communication step and tolerance."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from math import ceil
 from operator import attrgetter
 from time import process_time
-from typing import Any
 
 import numpy as np
 
 from slider_resonator.device.model import LUGRE, Model
+from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.run import Record, run
@@ -49,14 +49,17 @@ class FmuMethods:
         own = problem.device.friction_law
         self.models = [Model(2, own), Model(1, own), *(Model(0, own, n) for n in self.orders)]
 
-    def _run(self, task: Callable[..., Any], **arguments: Any) -> Any:
-        """Return the CPU time (s) of `task(instance, ...)` in the FMU's process, and its result."""
-        return self.fmu.run(partial(_timed, partial(task, **arguments)))
+    def _run(
+        self, values: Mapping[str, float], schedule: Schedule, outputs: Sequence[str] = OUTPUTS
+    ) -> Record:
+        task = partial(run, parameters=values, schedule=schedule, outputs=outputs)
+        record: Record = self.fmu.run(task)
+        return record
 
     def check_runs(self) -> None:
         """Raise what the FMU raises in a drive period of the scene, at the model it starts with."""
         period = self.problem.schedule(1, self.problem.period, interpolates=self.interpolates)
-        self._run(run, parameters=self.problem.parameters, schedule=period, outputs=OUTPUTS)
+        self._run(self.problem.parameters, period)
 
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
@@ -103,11 +106,9 @@ class FmuMethods:
             own = self.problem.schedule(periods, size, interpolates=self.interpolates)
             closest = 1e-9 * min(size, self.problem.period)
             schedule = own.read_at(self.problem.readings(periods), closest)
-            outputs = (*OUTPUTS, "last_event_time", "reversals")
-            record: Record
-            taken, record = self._run(run, parameters=values, schedule=schedule, outputs=outputs)
+            record = self._run(values, schedule, (*OUTPUTS, "last_event_time", "reversals"))
             at = np.searchsorted(record.times, own.times)
-            return taken, Solution(
+            return record.start_cpu + record.step_cpu, Solution(
                 times=record.times,
                 position=record["position"],
                 velocity=record["velocity"],
@@ -123,8 +124,7 @@ class FmuMethods:
             schedule = self.problem.schedule(periods, size, interpolates=self.interpolates)
             taken: list[float] = []
             while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
-                _, record = self._run(run, parameters=values, schedule=schedule, outputs=OUTPUTS)
-                taken.append(record.step_cpu)
+                taken.append(self._run(values, schedule).step_cpu)
             return sum(taken) / len(taken)
 
         missing = {} if resolved else {"event_times": "averages and leaps locate no events"}
@@ -132,36 +132,31 @@ class FmuMethods:
         return Method(row, follow, seconds, min_periods=ceil(step), missing=missing)
 
     def _search(self, quantity: str, model: Model) -> SteadyMethod:
-        values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
-
-        def find(_: float) -> SteadyAnswer:
-            seconds, search = self._run(SEARCHES[quantity], values=values)
-            return SteadyAnswer(seconds, getattr(search, quantity), search.reason, search.periods)
-
-        row = self._row(model, USUAL_TOLERANCE, None)
-        return SteadyMethod(replace(row, answer=quantity), find)
+        row = replace(self._row(model, USUAL_TOLERANCE, None), answer=quantity)
+        return self._steady(row, model, _searched)
 
     def _prediction(self, quantity: str, order: int | None) -> SteadyMethod:
         """Return the value of an output that predicts, at the start of a run at fidelity 2."""
         model = replace(self.models[0], averaging_order=order)
-        values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
         family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
-
-        def find(_: float) -> SteadyAnswer:
-            return SteadyAnswer(*self._run(_value_at_start, values=values, output=quantity))
-
         law = model.friction_law
         row = Row(AVERAGED, family, family, law, averaging_order=order, answer=quantity)
-        return SteadyMethod(row, find)
+        return self._steady(row, model, _predicted)
+
+    def _steady(self, row: Row, model: Model, find: Callable[..., SteadyAnswer]) -> SteadyMethod:
+        values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
+        task = partial(find, values=values, quantity=row.answer)
+        return SteadyMethod(row, lambda _: self.fmu.run(task))
 
 
-def _timed(task: Callable[[Instance], Any], instance: Instance) -> tuple[float, Any]:
-    """Return the CPU time (s) of a task and its result, in the process of the FMU."""
+def _searched(instance: Instance, values: Mapping[str, float], quantity: str) -> SteadyAnswer:
     began = process_time()
-    result = task(instance)
-    return process_time() - began, result
+    found = SEARCHES[quantity](instance, values)
+    return SteadyAnswer(process_time() - began, found.value, found.reason, found.periods)
 
 
-def _value_at_start(instance: Instance, values: Mapping[str, float], output: str) -> float:
+def _predicted(instance: Instance, values: Mapping[str, float], quantity: str) -> SteadyAnswer:
+    began = process_time()
     instance.start(values)
-    return instance.value(output)
+    value = instance.value(quantity)
+    return SteadyAnswer(process_time() - began, value)

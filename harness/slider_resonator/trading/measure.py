@@ -160,7 +160,8 @@ def _follow(
         raise ValueError(f"a step is longer than the run of {problem.periods} drive periods")
     if method.cannot_stick and reference.sticks:
         raise ValueError("the slider sticks, which it does not cover")
-    horizons = [periods for periods in problem.lengths if periods >= method.min_periods]
+    lengths = problem.horizons if problem.constant else (problem.periods,)
+    horizons = [periods for periods in lengths if periods >= method.min_periods]
     method.run(method.min_periods + 1)  # compiles, fills caches
     begun = method.run(method.min_periods)[0]
     taken = method.run(method.min_periods + 1)[0]

@@ -3,7 +3,7 @@
 As methods on a problem they have runs, CPU times, and searches by shooting.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from time import process_time
@@ -30,20 +30,18 @@ MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""
 SHOOTING = 1e-6
 """Accuracy of shooting, in units of the state, with methods that lose their order at reversals."""
-NO_EVENTS = {"event_times": "no event is located"}
-NOT_SHOT = dict.fromkeys(SEARCHES, "shooting needs a start in any state of the full device")
-NO_REVERSALS = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
-NO_MODES = {"event_times": "averaged motion has no events", **NOT_SHOT}
+NOT_SHOT = "shooting needs a start in any state of the full device"
 
 
 def peer_methods(problem: Problem) -> Iterator[Method]:
     """Yield the peers for the friction law of a problem."""
     peer = partial(_peer, problem)
-    located = partial(peer, missing={})
+    located = partial(peer, no_events="")
     yield located("Taylor series in Python", "", None, simulate_series, shooting=1e-9)
     is_lugre = problem.device.friction_law == 1
     family = "heyoka at its fastest" + (", bristle from path" if is_lugre else "")
-    in_one_call = partial(peer, shooting=None, cannot_stick=True, missing=NO_REVERSALS)
+    none = "the times of reversals are not reported"
+    in_one_call = partial(peer, shooting=None, cannot_stick=True, no_events=none)
     for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
         heyoka = partial(heyoka_in_one_call, tolerance=tolerance)
         yield in_one_call(family, f"tol {tolerance:.0e}", tolerance, heyoka)
@@ -69,7 +67,8 @@ def peer_methods(problem: Problem) -> Iterator[Method]:
         for share in (1e-1, 1e-2, 1e-3, 1e-4):
             setting = f"width {share:g} of the fast velocity"
             yield peer("tanh, LSODA", setting, None, partial(_regularised, share=share))
-    yield peer("averaged equation, scipy", "", None, _averaged, shooting=None, missing=NO_MODES)
+    none = "averaged motion has no events"
+    yield peer("averaged equation, scipy", "", None, _averaged, shooting=None, no_events=none)
 
 
 def _peer(
@@ -81,13 +80,13 @@ def _peer(
     shooting: float | None = SHOOTING,
     *,
     cannot_stick: bool = False,
-    missing: Mapping[str, str] = NO_EVENTS,
+    no_events: str = "no event is located",
 ) -> Method:
     """Return a method on a problem, by the setting that its error depends on.
 
-    `simulate` returns a trajectory, with the times of its events unless these are `missing`, or a
-    solution. `shooting` is the accuracy of shooting in units of the state, None for a method that
-    cannot start in any state.
+    `simulate` returns a trajectory, with the times of its events unless there are `no_events` for
+    that reason, or a solution. `shooting` is the accuracy of shooting in units of the state, None
+    for a method that cannot start in any state.
     """
     name, law = f"{family}, {setting}" if setting else family, problem.device.friction_law
     row = Row(PEER, family, name, law, tolerance=tolerance)
@@ -98,7 +97,7 @@ def _peer(
         times = np.union1d(problem.readings(periods), ends)
         found = simulate(problem.device, problem.lines(periods), times)
         if not isinstance(found, Solution):
-            found = solution_of(found, located="event_times" not in missing)
+            found = solution_of(found, located=not no_events)
         position = found.position[np.searchsorted(times, ends)]
         history = ends[1:], np.diff(position) / problem.period
         return process_time() - began, replace(found, history=history)
@@ -107,9 +106,12 @@ def _peer(
         taken, solution = run(periods)
         return taken - (solution.start_cpu or 0.0)
 
+    missing = {"event_times": no_events} if no_events else {}
     answers = []
-    if shooting is not None:
-        for quantity in SEARCHES:
+    for quantity in SEARCHES:
+        if shooting is None:
+            missing[quantity] = NOT_SHOT
+        else:
             find = partial(shoot, problem, quantity, simulate, shooting)
             answers.append(SteadyMethod(replace(row, answer=quantity), find))
     return Method(row, run, seconds, 1, cannot_stick, missing, answers)

@@ -119,11 +119,6 @@ class Problem:
         halves = {self.periods // 2**halving for halving in range(HALVINGS + 1)}
         return tuple(sorted(halves - {0}))
 
-    @property
-    def lengths(self) -> tuple[int, ...]:
-        """The drive periods after which a method may stop, all of them where inputs vary."""
-        return self.horizons if self.constant else (self.periods,)
-
     def windows(self, periods: int) -> Array:
         """Return the times (s), shape (w, POINTS + 1), of the readings in the windows of a run."""
         ends = np.array([end for end in self.horizons if end <= periods], np.float64)
