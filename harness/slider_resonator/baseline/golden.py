@@ -1,10 +1,5 @@
-"""The golden results of an FMU in a scene: measured, compared with later ones, and kept in files.
+"""The golden results of an FMU in a scene: measured, compared with later ones, kept in files."""
 
-The CSV files have the provenance, too: FMU, scene, host and tools.
-"""
-
-import hashlib
-import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,11 +12,9 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measuring import Measurement, measure
 from slider_resonator.checks.validate import Judged
 from slider_resonator.errors import HarnessError, SceneError, explained, unknown_name
-from slider_resonator.fmu.provenance import FmuIdentity, provenance_of, provenance_properties
 from slider_resonator.output.files import make_folder, write_csv
 from slider_resonator.scenes.csv_signal import csv_rows
-from slider_resonator.scenes.scene import Scene, ScenePoint
-from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_POINTS = 48
@@ -115,51 +108,6 @@ def _same_points(one: Measurement, other: Measurement) -> bool:
         return False
     same = one.times.shape == other.times.shape
     return same and bool(np.allclose(one.times, other.times, rtol=1e-9, atol=0.0))
-
-
-FMU_DIGEST = "fmu_sha256"
-SCENE_DIGEST = "scene_sha256"
-SCENE_FILE = "scene_file"
-BUILT_IN = "built in"
-"""In place of the file of a built-in scene."""
-TIME_KEYS = {"stop_time", "drive_periods", "step_size", "steps_per_period"}
-"""Keys of [run] that say the same in several ways."""
-
-
-def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> dict[str, str]:
-    """Return FMU, scene, host and tools; the scene's file as seen from the baseline's folder."""
-    found = provenance_of(fmu)
-    is_built_in = built_in_scenes().get(scene.name) == scene.files[0]
-    return {
-        **provenance_properties(found, fmu),
-        "fmu": Path(fmu.fmu).name,
-        "date": found.date.partition("T")[0],  # recorded again on a day, the file is the same
-        "scene": scene.name,
-        SCENE_FILE: BUILT_IN if is_built_in else _seen_from(folder, scene.files[0]),
-        SCENE_DIGEST: scene_digest(scene),
-        "points_kept": str(MAX_POINTS),
-    }
-
-
-def scene_digest(scene: Scene) -> str:
-    """Return the SHA-256 of a scene without its names and expectations.
-
-    Of [run] it has what is set: a record stays valid when a version of the harness adds a key.
-    """
-    swept = scene.sweep and (scene.sweep.variable, scene.sweep.values)
-    over_time = sorted({**scene.signals, **scene.tuning}.items())
-    signals = [(name, s.times, s.values, s.hold) for name, s in over_time]
-    run = scene.run and scene.run.model_dump(exclude_defaults=True, exclude=TIME_KEYS)
-    content = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size)
-    return hashlib.sha256(repr((*content, swept, run)).encode()).hexdigest()
-
-
-def _seen_from(folder: Path, file: Path) -> str:
-    """Return the relative path of a file, with slashes on every platform."""
-    try:
-        return Path(os.path.relpath(file, folder)).as_posix()
-    except ValueError:  # on another drive of Windows
-        return file.resolve().as_posix()
 
 
 NUMBERS, TRAJECTORY, PROVENANCE = "numbers.csv", "trajectory.csv", "provenance.csv"

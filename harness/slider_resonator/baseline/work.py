@@ -1,5 +1,7 @@
 """The three commands of a baseline: record golden results, check an FMU, accept changes."""
 
+import hashlib
+import os
 import shutil
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -7,10 +9,6 @@ from pathlib import Path
 
 from slider_resonator.baseline.golden import (
     AGAINST,
-    BUILT_IN,
-    FMU_DIGEST,
-    SCENE_DIGEST,
-    SCENE_FILE,
     THE_RUN,
     TOLERANCE,
     At,
@@ -19,10 +17,8 @@ from slider_resonator.baseline.golden import (
     compare_golden,
     key,
     measure_golden,
-    provenance,
     read_recorded,
     recorded_scenes,
-    scene_digest,
     write_recorded,
 )
 from slider_resonator.checks.compare import Comparison
@@ -30,7 +26,13 @@ from slider_resonator.checks.validate import Judged, RunFailure, Validation, jud
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.fmu.provenance import digest_of, identity_of
+from slider_resonator.fmu.provenance import (
+    FmuIdentity,
+    digest_of,
+    identity_of,
+    provenance_of,
+    provenance_properties,
+)
 from slider_resonator.output.files import make_folder, write_text
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.scenes.scene import Scene, ScenePoint
@@ -177,6 +179,50 @@ def scenes_recorded(folder: Path) -> list[Scene]:
         name = path.name if file == BUILT_IN else f"{path.parent / file}#{path.name}"
         found.append(find_scene(name))
     return found
+
+
+FMU_DIGEST = "fmu_sha256"
+SCENE_DIGEST = "scene_sha256"
+SCENE_FILE = "scene_file"
+BUILT_IN = "built in"
+"""In place of the file of a built-in scene."""
+TIME_KEYS = {"stop_time", "drive_periods", "step_size", "steps_per_period"}
+"""Keys of [run] that say the same in several ways."""
+
+
+def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> dict[str, str]:
+    """Return FMU, scene, host and tools; the scene's file as seen from the baseline's folder."""
+    found = provenance_of(fmu)
+    is_built_in = built_in_scenes().get(scene.name) == scene.files[0]
+    return {
+        **provenance_properties(found, fmu),
+        "fmu": Path(fmu.fmu).name,
+        "date": found.date.partition("T")[0],  # recorded again on a day, the file is the same
+        "scene": scene.name,
+        SCENE_FILE: BUILT_IN if is_built_in else _seen_from(folder, scene.files[0]),
+        SCENE_DIGEST: scene_digest(scene),
+    }
+
+
+def scene_digest(scene: Scene) -> str:
+    """Return the SHA-256 of a scene without its names and expectations.
+
+    Of [run] it has what is set: a record stays valid when a version of the harness adds a key.
+    """
+    swept = scene.sweep and (scene.sweep.variable, scene.sweep.values)
+    over_time = sorted({**scene.signals, **scene.tuning}.items())
+    signals = [(name, s.times, s.values, s.hold) for name, s in over_time]
+    run = scene.run and scene.run.model_dump(exclude_defaults=True, exclude=TIME_KEYS)
+    content = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size)
+    return hashlib.sha256(repr((*content, swept, run)).encode()).hexdigest()
+
+
+def _seen_from(folder: Path, file: Path) -> str:
+    """Return the relative path of a file, with slashes on every platform."""
+    try:
+        return Path(os.path.relpath(file, folder)).as_posix()
+    except ValueError:  # on another drive of Windows
+        return file.resolve().as_posix()
 
 
 def _run(

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from slider_resonator.checks.measures import share_of
-from slider_resonator.choosing.errors import ErrorEstimate
 from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
@@ -18,10 +16,6 @@ TOLERANCES = tuple(10.0**-digits for digits in range(3, 13))
 """Tolerances of LuGre friction and of leaps, from the cheapest on."""
 START_TOLERANCE = 1e-8
 """The FMU's start value, answered where the model has no use for a tolerance."""
-MARGIN = 0.99
-"""Largest share of an allowed error that an estimate may take."""
-SAME_COST = 1.05
-"""Quotient of two costs that counts as a tie: measured times scatter."""
 
 INPUTS = {
     "interpolated": "inputs go on as straight lines between",
@@ -64,53 +58,6 @@ class Candidate:
     def parameters(self) -> dict[str, float]:
         """The FMU parameters that make it."""
         return {**self.model.parameters, "tolerance": self.tolerance}
-
-
-@dataclass(frozen=True)
-class Evaluation:
-    """A candidate with its errors, the allowed ones, and its cost (s)."""
-
-    candidate: Candidate
-    estimates: Mapping[str, ErrorEstimate]
-    allowed: Mapping[str, float]
-    cost: float
-
-    @property
-    def excess(self) -> float:
-        """The largest error over the allowed one, with the margin."""
-        return self._share(self.worst) / MARGIN
-
-    @property
-    def worst(self) -> str:
-        """The need that is farthest from being met."""
-        return max(self.estimates, key=self._share)
-
-    @property
-    def why(self) -> str:
-        """The worst error in words."""
-        estimate, allowed = self.estimates[self.worst], self.allowed[self.worst]
-        if isfinite(estimate.error):
-            return f"{self.worst} is off by {estimate.error:.3g}, must be at most {allowed:.3g}"
-        return f"{self.worst}: {estimate.reason}"
-
-    def _share(self, name: str) -> float:
-        return share_of(self.estimates[name].error, self.allowed[name])
-
-
-def cheapest(evaluations: Sequence[Evaluation]) -> Evaluation:
-    """Return the cheapest, and of a tie the one that leaves out least.
-
-    That is resolved motion before leaps, these before fidelity 1 and that before averages, LuGre
-    friction before Coulomb's, and the largest tolerance.
-    """
-    most = SAME_COST * min(one.cost for one in evaluations)
-
-    def rank(one: Evaluation) -> tuple[float, int, float]:
-        model = one.candidate.model
-        kept = 1.5 if model.leaps else model.fidelity
-        return -kept, -model.friction_law, -one.candidate.tolerance
-
-    return min((one for one in evaluations if one.cost <= most), key=rank)
 
 
 @dataclass(frozen=True)

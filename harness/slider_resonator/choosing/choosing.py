@@ -3,22 +3,20 @@
 import time
 from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from math import inf, isfinite
 from pathlib import Path
 
+from slider_resonator.checks.measures import share_of
 from slider_resonator.choosing.choice import (
-    SAME_COST,
     START_TOLERANCE,
     Candidate,
     Choice,
-    Evaluation,
     RuledOut,
-    cheapest,
     tolerances,
 )
-from slider_resonator.choosing.errors import Estimates
+from slider_resonator.choosing.errors import ErrorEstimate, Estimates
 from slider_resonator.choosing.probe import HEAD_PERIODS, MAX_PERIODS, Probe, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
@@ -28,6 +26,10 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.steady.searches import SteadyAnswer
 
+MARGIN = 0.99
+"""Largest share of an allowed error that an estimate may take."""
+SAME_COST = 1.05
+"""Quotient of two costs that counts as a tie: measured times scatter."""
 TIGHTER = 2
 """Tolerances below the largest one that serves which may cost less where periods are leapt over."""
 ROUNDING = 1e-9
@@ -42,6 +44,53 @@ ROUNDS, ENOUGH = 25, 0.4
 """Times that they are run in turn, at most, and CPU time (s) after which no other turn begins."""
 TIME_LIMIT = 600.0
 """Default time limit of a choice, s."""
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A candidate with its errors, the allowed ones, and its cost (s)."""
+
+    candidate: Candidate
+    estimates: Mapping[str, ErrorEstimate]
+    allowed: Mapping[str, float]
+    cost: float
+
+    @property
+    def excess(self) -> float:
+        """The largest error over the allowed one, with the margin."""
+        return self._share(self.worst) / MARGIN
+
+    @property
+    def worst(self) -> str:
+        """The need that is farthest from being met."""
+        return max(self.estimates, key=self._share)
+
+    @property
+    def why(self) -> str:
+        """The worst error in words."""
+        estimate, allowed = self.estimates[self.worst], self.allowed[self.worst]
+        if isfinite(estimate.error):
+            return f"{self.worst} is off by {estimate.error:.3g}, must be at most {allowed:.3g}"
+        return f"{self.worst}: {estimate.reason}"
+
+    def _share(self, name: str) -> float:
+        return share_of(self.estimates[name].error, self.allowed[name])
+
+
+def cheapest(evaluations: Sequence[Evaluation]) -> Evaluation:
+    """Return the cheapest, and of a tie the one that leaves out least.
+
+    That is resolved motion before leaps, these before fidelity 1 and that before averages, LuGre
+    friction before Coulomb's, and the largest tolerance.
+    """
+    most = SAME_COST * min(one.cost for one in evaluations)
+
+    def rank(one: Evaluation) -> tuple[float, int, float]:
+        model = one.candidate.model
+        kept = 1.5 if model.leaps else model.fidelity
+        return -kept, -model.friction_law, -one.candidate.tolerance
+
+    return min((one for one in evaluations if one.cost <= most), key=rank)
 
 
 def choose(

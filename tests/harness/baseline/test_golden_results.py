@@ -18,9 +18,9 @@ from slider_resonator.baseline.golden import (
     key,
     read_recorded,
     recorded_scenes,
-    scene_digest,
     write_recorded,
 )
+from slider_resonator.baseline.work import scene_digest
 from slider_resonator.checks.compare import Check, compare
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.verdict import sentence

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.choosing.choice import Candidate, Evaluation, cheapest
-from slider_resonator.choosing.choosing import choose, choose_with
+from slider_resonator.choosing.choice import Candidate
+from slider_resonator.choosing.choosing import Evaluation, cheapest, choose, choose_with
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance

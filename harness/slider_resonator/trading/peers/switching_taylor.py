@@ -51,8 +51,8 @@ def heyoka_in_one_call(
     if direction == 0.0:
         raise ValueError("the slider sticks after a drive period, which it does not cover")
     now = (inputs.phase, inputs.load, inputs.frequency_ratio)
-    integrator, counter = _compiled(device, now, tolerance)
-    counter.reversals = 0
+    integrator, reversals = _compiled(device, now, tolerance)
+    reversals.clear()
     integrator.time = begin - inputs.start
     integrator.reset_cooldowns()
     integrator.pars[DIRECTION] = direction
@@ -73,20 +73,19 @@ def heyoka_in_one_call(
         position=np.concatenate([start.position[:-1], start.position[-1] + position]),
         velocity=np.concatenate([start.velocity[:-1], velocity]),
         steps=steps,
-        events=counter.reversals,
+        events=len(reversals),
         start_cpu=started,
     )
-
-
-class _Counter:
-    reversals = 0
 
 
 @lru_cache(maxsize=16)
 def _compiled(
     device: Device, inputs: tuple[float, float, float], tolerance: float
-) -> tuple[Any, _Counter]:
-    """Compile a device under phase (rad), load (N) and frequency ratio."""
+) -> tuple[Any, list[float]]:
+    """Compile a device under phase (rad), load (N) and frequency ratio.
+
+    Return the integrator, and the list of positions (m) that each reversal adds to.
+    """
     try:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
@@ -106,7 +105,7 @@ def _compiled(
     force = e.coupling_damping * u + e.coupling_stiffness * y + e.force_sine * drive - load
     acceleration = (force - (e.friction_mean + varying) * share) / e.inertia
     swing = e.base_acceleration * drive - e.damping_rate * u - e.stiffness_rate * y - acceleration
-    counter = _Counter()
+    reversals: list[float] = []
 
     def reverse(integrator: Any, sign: int) -> bool:
         pars = integrator.pars
@@ -116,7 +115,7 @@ def _compiled(
             pars[STRETCH] = turned - (turned - pars[STRETCH]) * fade
             pars[REVERSED_AT] = position
         pars[DIRECTION] = -turned
-        counter.reversals += 1
+        reversals.append(position)
         return True
 
     system = [(x, v), (v, acceleration), (y, u), (u, swing)]
@@ -125,5 +124,4 @@ def _compiled(
     integrator = hy.taylor_adaptive(
         system, [0.0] * len(system), pars=parameters, tol=tolerance, t_events=[event]
     )
-    # A copy made by heyoka would keep its own callback, so the counter is found by the original.
-    return integrator, counter
+    return integrator, reversals
