@@ -13,30 +13,26 @@ from slider_resonator.output.table import Cell, Row, Style, Table, numbers, text
 from slider_resonator.stressing.case import MODELS, RANDOM, Case, name_of
 from slider_resonator.stressing.run import FAILED, MEANINGS, PASSED, StressResult, Verdict
 
-GRIDS = (
-    "<p>A cell of a grid has the largest deviation of a case over the allowed one. Point at it for "
-    "its checks.</p>"
-)
-
 
 def write_stress_page(path: Path, results: Sequence[StressResult], provenance: Provenance) -> None:
     """Write the page; HarnessError when that is impossible."""
-    overview: list[Row] = []
-    for one in results:
-        sizes = f"{len(one.verdicts)}", f"{one.skipped}", f"{one.not_run}", f"{one.wall_time:.0f}"
-        overview.append((Path(one.fmu).name, verdict(not one.failed, one.not_run), *sizes))
-    counts = numbers("cases", "skipped", "not run", "wall time [s]")
+    overview: list[Row] = [
+        (Path(one.fmu).name, verdict(not one.failed, one.not_run)) for one in results
+    ]
     legend: list[Row] = []
     for name, meaning in MEANINGS.items():
         count = sum(one.counts.get(name, 0) for one in results)
         style = Style.FAIL if name == FAILED and count else Style.PLAIN
         legend.append((Cell(name, style), str(count), meaning))
     parts = [
-        rendered(Table((*texts("FMU", "verdict"), *counts), overview)),
+        rendered(Table(texts("FMU", "verdict"), overview)),
         rendered(Table((*texts("verdict"), *numbers("cases"), *texts("meaning")), legend)),
     ]
     if any(one.axis != RANDOM for result in results for one in result.verdicts):
-        parts.append(GRIDS)
+        parts.append(
+            "<p>A cell of a grid has the largest deviation of a case over the allowed one. Point "
+            "at it for its checks.</p>"
+        )
     parts += [part for result in results for part in _of_one_fmu(result)]
     write_page(path, "Stress test", [*parts, provenance_html(provenance)])
 
@@ -52,12 +48,6 @@ def _of_one_fmu(result: StressResult) -> list[str]:
             others: list[Row] = [(one.name, one.reason, one.command(result.fmu)) for one in chosen]
             table = rendered(Table(texts("case", "reason", "run it again"), others))
             parts.append(section(anchor, heading, count, table, unfolded=name == FAILED))
-    nearest: list[Row] = [
-        (model, f"{check.found:.2g}", check.name, case.name)
-        for model, (case, check) in result.nearest.items()
-    ]
-    columns = (*texts("model"), *numbers("nearest to its bound"), *texts("in", "case"))
-    parts.append(rendered(Table(columns, nearest)))
     for axis in dict.fromkeys(one.axis for one in result.verdicts if one.axis != RANDOM):
         parts.append(_grid(axis, [one for one in result.verdicts if one.axis == axis]))
     return parts
@@ -71,14 +61,8 @@ def _grid(axis: str, cases: Sequence[Verdict]) -> str:
         (value, *(cells.get((value, model), "") for model in models))
         for value in dict.fromkeys(one.value for one in cases)
     ]
-    checks = [check for one in cases for check in one.checks]
-    names = ", ".join(dict.fromkeys(check.name for check in checks))
-    words = f"{number_of(len(cases), 'case')} checked by {names}"
-    if checks:
-        nearest = max(checks, key=lambda check: check.found)
-        words += f"; nearest to its bound: {nearest.name}, {nearest.found:.2g} of it"
     grid = rendered(Table((*texts("value"), *numbers(*models)), rows))
-    return f"<h3>{escaped(axis)}</h3><p>{escaped(words)}</p>{grid}"
+    return f"<h3>{escaped(axis)}</h3>{grid}"
 
 
 def _cell(one: Verdict) -> Cell:

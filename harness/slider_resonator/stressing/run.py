@@ -163,17 +163,12 @@ class StressResult(Shown, Tabular):
         return {name: [getattr(one, name) for one in self.verdicts] for name in names}
 
     def describe(self) -> list[str]:
-        """Return the counts, the cases nearest to a bound, and those that did not pass."""
+        """Return the verdict, the counts, and the cases that did not pass."""
         return ["passed" if self.passed else "FAILED", *self.sentences()]
 
     def sentences(self) -> list[str]:
         """Return what was found, in lines; a failed case has the command that runs it again."""
         lines = f"{one_line(self.fmu)}: {self.summary}".splitlines()
-        lines += [
-            f"  nearest to a bound, {model}: {check.found:.2g} of it in {check.name}, "
-            f"{case.axis}: {case.value}"
-            for model, (case, check) in self.nearest.items()
-        ]
         for case in self.verdicts:
             if case.verdict not in (PASSED, NO_REFERENCE):
                 lines.append(f"  {case.verdict}: {case.name}: {one_line(case.reason)}")
@@ -214,7 +209,7 @@ class StressResult(Shown, Tabular):
 
     @property
     def summary(self) -> str:
-        """The counts and the worst cost, in words."""
+        """The counts, the worst cost and the cases nearest to a bound, in lines."""
         made = Counter(check.name for one in self.verdicts for check in one.checks)
         counts = ", ".join(f"{count} {verdict}" for verdict, count in self.counts.items())
         lines = [
@@ -230,6 +225,11 @@ class StressResult(Shown, Tabular):
                 f"{worst.cost_ratio:.3g} times the median cost of a period of the same device "
                 f"(bound {MAX_RELATIVE_COST:g}), {1e6 * worst.worst_step:.3g} us ({worst.name})"
             )
+        lines += [
+            f"nearest to a bound, {model}: {check.found:.2g} of it in {check.name}, "
+            f"{case.axis}: {case.value}"
+            for model, (case, check) in self.nearest.items()
+        ]
         return "\n".join(lines)
 
 
