@@ -18,9 +18,10 @@ START_TOLERANCE = 1e-8
 """The FMU's start value, answered where the model has no use for a tolerance."""
 
 INPUTS = {
-    "interpolated": "inputs go on as straight lines between",
-    "held": "inputs are held over each; interpolate = true in [run] passes straight lines on",
-    "cannot": "inputs are held over each: the FMU has canInterpolateInputs = false",
+    "interpolated": "straight lines between communication points, by their derivatives",
+    "held": "straight lines are held over each step; `run --interpolate`, or interpolate = true in "
+    "[run], passes them on",
+    "cannot": "straight lines are held over each step: the FMU has canInterpolateInputs = false",
 }
 """How inputs that are straight lines reach an FMU, in words."""
 
@@ -120,7 +121,7 @@ class Choice(Shown, Tabular):
             periods = float(f"{self.step / self.drive_period:.4g}")
             step = f"{self.step:.6g} s, {number_of(periods, 'drive period')}"
         step += f", tolerance {self.tolerance:g}" if uses_tolerance(self.model) else ""
-        step += f"; {INPUTS[self.inputs]}" if self.step and self.inputs else ""
+        step += f"; inputs: {INPUTS[self.inputs]}" if self.step and self.inputs else ""
         step += "; steps also end where inputs jump" if self.step and self.jumps else ""
         return [
             f"{'chosen' if self.meets else 'nearest':<9}{self.model.name}",

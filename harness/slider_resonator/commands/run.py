@@ -4,10 +4,11 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from slider_resonator.choosing.choice import INPUTS, Choice
 from slider_resonator.commands import options
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.units import si_number
@@ -19,17 +20,6 @@ from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, write_csv
 from slider_resonator.output.progress import Progress, progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.scenes.scene import Scene
-
-if TYPE_CHECKING:
-    from slider_resonator.choosing.choice import Choice
-
-
-HOW_INPUTS = {
-    "interpolated": "straight lines between communication points, by their derivatives",
-    "held": "straight lines are held over each step; --interpolate passes them on",
-    "cannot": "straight lines are held over each step: the FMU has canInterpolateInputs = false",
-}
-"""How inputs that are straight lines reach an FMU, in words."""
 
 
 def _window(begin: str, end: str) -> tuple[float, float]:
@@ -221,12 +211,12 @@ def _draw_signals(
 
 
 def _summary(
-    fmu: Path, scene: Scene, record: Record, **more: "Path | Choice | str | None"
+    fmu: Path, scene: Scene, record: Record, **more: Path | Choice | str | None
 ) -> dict[str, Any]:
     """Return a run and its cost; times in s, positions in m, velocities in m/s.
 
     Of `more`, `auto` is the choice of --auto, `inputs` how inputs that are straight lines reach the
-    FMU: one of `HOW_INPUTS`, None where there are none.
+    FMU: one of `INPUTS`, None where there are none.
     """
     simulated = float(record.times[-1])
     periods = float(scene.drive_periods.passed_by(record.times[-1:])[0])
@@ -259,7 +249,7 @@ def _sentences(summary: Mapping[str, Any], scene: Scene) -> list[str]:
         f"drive period {readable(summary['mean_velocity'], 9)} m/s",
     ]
     if summary["inputs"]:
-        lines.append(f"inputs   {HOW_INPUTS[summary['inputs']]}")
+        lines.append(f"inputs   {INPUTS[summary['inputs']]}")
     if scene.device.fidelity != 0:  # averaged motion has no events to count
         lines.append(
             f"contact  {number_of(summary['reversals'], 'reversal')}, sticking "

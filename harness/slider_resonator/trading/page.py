@@ -88,9 +88,6 @@ def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) ->
         for target, sentences in comparisons(trade):
             items = "".join(f"<li>{escaped(words)}</li>" for words in sentences)
             parts.append(f"<p><strong>{escaped(target)}</strong></p><ul>{items}</ul>")
-    parts.append(EXPLANATION)
-    for trade in trades:
-        parts.append(f"<h2>{escaped(trade.heading)}: in full</h2>")
         run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
         parts.append(f"<p>{escaped(run)}</p>")
         shown = [quantity for quantity in QUANTITIES if trade.having(quantity)]
@@ -100,8 +97,7 @@ def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) ->
         omitted = [(one.method, one.quantity, one.reason) for one in trade.omissions]
         missing = rendered(Table(texts("method", "quantity", "reason"), omitted))
         parts.append(folded(f"{len(omitted)} omissions: what is missing, and why", missing))
-    parts.append(provenance_html(provenance))
-    write_page(path, "What accuracy costs", parts)
+    write_page(path, "What accuracy costs", [*parts, EXPLANATION, provenance_html(provenance)])
 
 
 def _cells(row: Row) -> list[str]:

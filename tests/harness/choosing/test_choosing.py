@@ -149,7 +149,7 @@ def test_straight_lines_that_are_passed_on_need_no_small_steps(instance: Instanc
     assert (held.meets, held.inputs) == (False, "held")
     assert (passed.meets, passed.inputs, passed.step) == (True, "interpolated", 0.5)
     assert "interpolate = true" in " ".join(held.sentences())
-    assert "inputs go on as straight lines" in " ".join(passed.sentences())
+    assert "inputs: straight lines between" in " ".join(passed.sentences())
 
 
 @pytest.mark.slow

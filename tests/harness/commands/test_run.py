@@ -45,8 +45,8 @@ def test_ramps_are_held_or_passed_on(native_fmu: Path, python_fmu: Path, tmp_pat
     for said, scene, *options in (
         ("between communication points, by their derivatives", held, "--interpolate"),
         ("between communication points, by their derivatives", passed),
-        ("held over each step; --interpolate", held),
-        ("held over each step; --interpolate", passed, "--no-interpolate"),
+        ("held over each step; `run --interpolate`", held),
+        ("held over each step; `run --interpolate`", passed, "--no-interpolate"),
     ):
         out = tmp_path / f"{len(outs)}.csv"
         assert said in call("run", native_fmu, scene, *options, "--out", out).stdout
