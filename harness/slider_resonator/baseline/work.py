@@ -134,24 +134,22 @@ def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
     waiting = {path.name: path for path in recorded_scenes(folder / CHANGED)}
     for name in names:
         if name not in waiting:
-            reason = f"{name}: nothing has changed since the last check, or there was none"
-            if waiting:
-                reason = unknown_name("changed scene", name, waiting)
-            raise HarnessError(f"{folder}: {reason}")
+            changed = f"(must be one of {', '.join(waiting)})" if waiting else "(no scene has)"
+            raise HarnessError(f"{folder}: {name} has not changed in the last check {changed}")
     chosen = tuple(dict.fromkeys(names)) or tuple(waiting)
     if not chosen:
         return ()
     with open_fmu(fmu):
         digest = digest_of(fmu)
-    changed = {name: read_recorded(waiting[name]) for name in chosen}
-    for recorded in changed.values():
+    results = {name: read_recorded(waiting[name]) for name in chosen}
+    for recorded in results.values():
         checked = recorded.provenance
         if checked.get(FMU_DIGEST) != digest:
             raise HarnessError(
                 f"{fmu}: not the FMU that was last checked, which was {checked.get('fmu')} with "
                 f"SHA-256 {checked.get(FMU_DIGEST)}; check this one first"
             )
-    for name, recorded in changed.items():
+    for name, recorded in results.items():
         write_recorded(folder / name, recorded)
         shutil.rmtree(waiting[name], ignore_errors=True)
     return chosen

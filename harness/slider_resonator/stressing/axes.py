@@ -16,7 +16,6 @@ TABLE_1 = Device()
 W = TABLE_1.drive_frequency
 PERIOD = tau / W
 AMPLITUDE = TABLE_1.base_amplitude
-MASS = TABLE_1.total_mass
 STICK_TO_SLIP = sqrt(1.0 - TABLE_1.mass_ratio)
 """Frequency of the resonator in stick over that in slip."""
 Q = 1.301353
@@ -28,7 +27,6 @@ FULL_FRICTION = TABLE_1.mean_friction
 CHANGES = 150
 """Steps of a run whose inputs change at each of them."""
 DETUNING = 0.05
-BEAT = PERIOD / DETUNING
 BEATS = {"1 beat": 1.0, "90 beats": 90.0, "1/3 beat": 1.0 / 3.0}
 JUMPS = {"phase": -2.0, "load": 0.15, "frequency_ratio": 3.0}
 """Inputs late in a run, by name."""
@@ -126,7 +124,8 @@ def _tuned_to(w: float) -> Settings:
 
 def _masses(resonator: float, slider: float) -> Settings:
     """Return masses by their shares in that of table 1."""
-    return {"resonator_mass": MASS * resonator, "slider_mass": MASS * slider}
+    mass = TABLE_1.total_mass
+    return {"resonator_mass": mass * resonator, "slider_mass": mass * slider}
 
 
 def _held(model: Model, value: str) -> list[Limit]:
@@ -163,7 +162,7 @@ def _beats(model: Model, value: str) -> list[Hold]:
     beats = BEATS[value]
     # Averages of second order resolve beats: more of them take more work than a step may.
     count = 8 if beats > 1.0 or model.leaps else 24
-    size = min(beats, 90.0 if model.fidelity == 0 else 3.0) * BEAT
+    size = min(beats, 90.0 if model.fidelity == 0 else 3.0) * (PERIOD / DETUNING)
     return [Hold(size, count)]
 
 

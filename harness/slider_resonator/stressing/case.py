@@ -52,9 +52,10 @@ class Hold:
 
 
 MODELS = (
-    *(Model(2, 0), Model(1, 0), Model(0, 0, 1), Model(0, 0, 2)),
-    *(Model(2, 1), Model(1, 1), Model(0, 1, 1), Model(0, 1, 2)),
+    *(Model(2, 0), Model(1, 0), Model(0, 0, 1), Model(2, 1), Model(1, 1), Model(0, 1, 1)),
+    *(Model(0, 0, 2), Model(0, 1, 2)),
 )
+"""All models, in the order in which random devices take them in turn."""
 
 
 def name_of(model: Model) -> str:

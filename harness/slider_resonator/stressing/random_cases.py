@@ -15,12 +15,8 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.device.model import Model
 from slider_resonator.references.equivalent_force import equivalent_force
-from slider_resonator.stressing.case import RANDOM, Case, Hold
+from slider_resonator.stressing.case import MODELS, RANDOM, Case, Hold
 
-IN_TURN = (
-    *(Model(2, 0), Model(1, 0), Model(0, 0, 1), Model(2, 1), Model(1, 1), Model(0, 1, 1)),
-    *(Model(0, 0, 2), Model(0, 1, 2)),
-)
 RESOLVED_PERIODS = (0.3, 30.0)
 AVERAGED_PERIODS = (3.0, 3000.0)
 """Shortest and longest run, in drive periods."""
@@ -44,7 +40,7 @@ START_TIMES = (0.0, 0.0, 0.0, 1e-3, -5.0, 12.5, 1e4)
 def random_case(seed: int, number: int) -> Case:
     """Return a case of a seed; `number` counts from 0."""
     random = Random(f"{seed} {number}")
-    model = IN_TURN[number % len(IN_TURN)]
+    model = MODELS[number % len(MODELS)]
     values = random_device(random) | model.parameters
     if model.leaps:
         values |= _light_friction(random, values)

@@ -18,15 +18,9 @@ from slider_resonator.fmu.opening import lacking, open_fmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.shown import Shown, Tabular
+from slider_resonator.stressing import comparisons
 from slider_resonator.stressing.case import RANDOM, Case, name_of
-from slider_resonator.stressing.comparisons import (
-    NO_REFERENCE,
-    REFERENCE,
-    compare_with_reference,
-    equalities,
-    has_reference,
-    is_sensitive,
-)
+from slider_resonator.stressing.comparisons import NO_REFERENCE, REFERENCE
 from slider_resonator.stressing.invariants import BoundCheck, finite, invariants
 from slider_resonator.stressing.observe import Observation, observe
 
@@ -116,8 +110,10 @@ def judge(case: Case, seen: Observation) -> Verdict:
         return verdict_on(case, REFUSED if named else FAILED, seen.refusal)
     checks = [finite(seen)]
     if checks[0].passed:
-        checks += [] if case.is_random else [*invariants(case, seen), *equalities(case, seen)]
-        checks += [compare_with_reference(case, seen)] if has_reference(case) else []
+        if not case.is_random:
+            checks += [*invariants(case, seen), *comparisons.equalities(case, seen)]
+        if comparisons.has_reference(case):
+            checks.append(comparisons.compare_with_reference(case, seen))
     last = checks[-1]
     judged = verdict_on(case, PASSED)
     judged = replace(judged, worst_step=seen.worst_step, period_cost=seen.period_cost)
@@ -133,7 +129,7 @@ def judge(case: Case, seen: Observation) -> Verdict:
     if case.is_random and last.name == NO_REFERENCE:
         verdict, reason = NO_REFERENCE, last.words
     elif case.is_random and last.name == REFERENCE and not last.passed:
-        verdict = SENSITIVE if is_sensitive(case, last.found) else FAILED
+        verdict = SENSITIVE if comparisons.is_sensitive(case, last.found) else FAILED
     return replace(judged, verdict=verdict, reason=reason, checks=tuple(checks))
 
 

@@ -20,7 +20,7 @@ from slider_resonator.stressing.case import MODELS, RANDOM, Case, Hold, name_of
 from slider_resonator.stressing.comparisons import NO_REFERENCE, REFERENCE
 from slider_resonator.stressing.invariants import BoundCheck
 from slider_resonator.stressing.observe import Observation, observe
-from slider_resonator.stressing.random_cases import IN_TURN, random_case
+from slider_resonator.stressing.random_cases import random_case
 from slider_resonator.stressing.report import write_stress_page
 from slider_resonator.stressing.run import (
     FAILED,
@@ -122,7 +122,7 @@ def test_the_page_has_each_case_with_its_checks_or_command(tmp_path: Path) -> No
 
 def test_cases_cover_what_they_should() -> None:
     cases = [random_case(0, number) for number in range(600)]
-    assert Counter(case.model for case in cases).most_common()[-1][1] == 600 // len(IN_TURN)
+    assert Counter(case.model for case in cases).most_common()[-1][1] == 600 // len(MODELS)
     drives = [case.device.drive_frequency for case in cases]
     assert max(drives) / min(drives) > 1e3
     assert len({name for case in cases for hold in case.holds for name, _ in hold.tuned}) == 6
@@ -133,7 +133,7 @@ def test_cases_cover_what_they_should() -> None:
     assert len(unequal) > 300
 
 
-@pytest.mark.parametrize("number", range(len(IN_TURN)))
+@pytest.mark.parametrize("number", range(len(MODELS)))
 def test_an_error_above_the_bound_fails(instance: Instance, number: int) -> None:
     case = random_case(7, number)
     seen = observe(instance, case)

@@ -82,10 +82,7 @@ def heyoka_in_one_call(
 def _compiled(
     device: Device, inputs: tuple[float, float, float], tolerance: float
 ) -> tuple[Any, list[float]]:
-    """Compile a device under phase (rad), load (N) and frequency ratio.
-
-    Return the integrator, and the list of positions (m) that each reversal adds to.
-    """
+    """Return an integrator under phase (rad), load (N) and ratio, and where it reverses (m)."""
     try:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
