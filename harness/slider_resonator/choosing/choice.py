@@ -27,7 +27,6 @@ INPUTS = {
 
 PROBES = {
     "whole": "resolved motion of the whole run",
-    "beginning": "resolved motion of the beginning",
     "leaps": "leaps over the whole run",
     "steady motion": "steady motion",
 }
@@ -76,8 +75,8 @@ class Choice(Shown, Tabular):
     (s) is None for a scene without a run. `error` is what was measured and `allowed` what is
     needed, by need in its unit (m/s, m, s, N, Hz), None where there is no such thing. `cost` is the
     measured CPU time (s) of a run, with the host's. `probe` says what the errors are against:
-    resolved motion over the "whole" scene or its "beginning", "leaps" over the whole, or "steady
-    motion"; and `probe_drive_periods` how much was resolved, in periods of `drive_period` (s).
+    resolved motion over the "whole" scene, "leaps" over it, or "steady motion"; and
+    `probe_drive_periods` how much was resolved, in periods of `drive_period` (s).
     `inputs` is how inputs that are straight lines reach the FMU, a key of `INPUTS`, None without
     any. Where inputs have `jumps`, steps end at these, too.
     """

@@ -285,6 +285,9 @@ class Choosing:
         lacks = "no model can: the resolved motion gives no "
         none = lacks if worst.error == inf and not worst.magnitude else "none suffices: "
         reason = f"the cheapest that meets every need, to within {SAME_COST - 1.0:.0%}"
+        probe = "steady motion"
+        if self.probe.run_needs:
+            probe = "leaps" if self.probe.leaps_serve else "whole"
         return Choice(
             **vars(model),
             step=evaluation.candidate.step,
@@ -299,7 +302,7 @@ class Choosing:
                 if best is None or other != model
             ),
             reason=reason if best else none + evaluation.why,
-            probe=self.probe.covers if self.probe.run_needs else "steady motion",
+            probe=probe,
             probe_drive_periods=self.probe.drive_periods,
             drive_period=self.scene.drive_period,
             inputs=self.probe.inputs,

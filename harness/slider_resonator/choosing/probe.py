@@ -135,10 +135,6 @@ TIMED_STEPS = 2000
 """Steps of a beginning that gives the cost of a candidate whose steps are put together."""
 MAX_FOLLOWED_STEPS = 100_000
 """Steps of a candidate beside a reference that follows lines of inputs, where inputs vary."""
-LONGEST = 60.0
-"""CPU time (s) of a resolved run of a whole scene, where leaps do not serve."""
-CAUTION = 3.0
-"""Safety factor on errors extrapolated from the beginning, besides their growth with time."""
 LEAP_TOLERANCES = (1e-9, 1e-11)
 """Tolerances of two runs with leaps, whose difference bounds the error of the finer one."""
 TRUSTED = 0.1
@@ -226,29 +222,22 @@ class Probe:
         Raises FmuError or Refusal where the FMU cannot run it.
         """
         step = candidate.step or self.duration
-        joined, stop = step * self._together(step), self._basis[1]
-        record, seconds = self._run(candidate, joined, stop)
+        joined = step * self._together(step)
+        record, seconds = self._run(candidate, joined, self.duration)
         if joined > step:
-            seconds = self.cost(candidate) * stop / self.duration
-        seen = self._readings(stop, step).errors(record, self.reference(step))
+            seconds = self.cost(candidate)
+        seen = self._readings(self.duration, step).errors(record, self.reference(step))
         if "beat" in seen and (
             why := self.no_beat or unseen_beat(seen["beat"], beat_frequency(self.scene))
         ):
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
-        if stop < self.duration and candidate.model != self.reference_model:
-            why = "the scene is too long for a resolved run of all of it, and leaps do not serve"
-            seen = {name: replace(one, error=inf, reason=why) for name, one in seen.items()}
-        elif stop < self.duration:  # the errors of the resolved model grow up to the end
-            growth = CAUTION * self.duration / stop
-            for name in seen.keys() - {"beat"}:
-                seen[name] = replace(seen[name], error=growth * seen[name].error)
-        return seen, seconds * self.duration / stop
+        return seen, seconds
 
     def cost(self, candidate: Candidate, stop: float = inf) -> float:
         """Return the cost (s) of a run with a candidate, by that up to `stop` (s)."""
         step = candidate.step or self.duration
         most = TIMED_STEPS * step if self._together(step) > 1 else inf
-        stop = min(stop, self._basis[1], most)
+        stop = min(stop, self.duration, most)
         return self._run(candidate, min(step, stop), stop)[1] * self.duration / stop
 
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
@@ -274,33 +263,19 @@ class Probe:
         """
         key = step if must_hold(self.scene, interpolates=self.instance.fmu.interpolates) else 0.0
         if key not in self._references:
-            candidate, stop, _ = self._basis
-            self._references[key] = self._exact_run(candidate, stop, step)[0]
+            exact = self._leaps[1] if self.leaps_serve else self.finest
+            self._references[key] = self._exact_run(exact, self.duration, step)[0]
         return self._references[key]
 
-    @property
-    def covers(self) -> str:
-        """What the errors were compared with: "whole", "leaps" over the whole, or "beginning"."""
-        return self._basis[2]
-
     @cached_property
-    def _basis(self) -> tuple[Candidate, float, str]:
-        """What candidates are compared with, where it ends (s), and what that covers.
+    def leaps_serve(self) -> bool:
+        """Whether leaps cost far less than resolved motion, and are accurate enough.
 
-        It ends with the scene, where that can be run as a whole. The CPU time of a beginning of
-        resolved motion decides.
+        The CPU time of a beginning of resolved motion decides.
         """
-        head = min(self.duration, HEAD_PERIODS * self.scene.drive_period)
-        seconds = self._exact_run(self.finest, head, head)[1] * self.duration / head
-        if self._leaps_serve(seconds):
-            return self._leaps[1], self.duration, "leaps"
-        if seconds <= LONGEST:
-            return self.finest, self.duration, "whole"
-        return self.finest, self.duration * LONGEST / seconds, "beginning"
-
-    def _leaps_serve(self, resolved: float) -> bool:
-        """Whether leaps cost far less than the resolved run (s), and are accurate enough."""
         has_orders, whole = self.instance.fmu.has_orders, self.duration
+        head = min(whole, HEAD_PERIODS * self.scene.drive_period)
+        resolved = self._exact_run(self.finest, head, head)[1] * whole / head
         if resolved <= SHORT or not has_orders or "event_times" in self.run_needs:
             return False
         try:
