@@ -226,7 +226,7 @@ class Probe:
         record, seconds = self._run(candidate, joined, self.duration)
         if joined > step:
             seconds = self.cost(candidate)
-        seen = self._readings(self.duration, step).errors(record, self.reference(step))
+        seen = self._readings(step).errors(record, self.reference(step))
         if "beat" in seen and (
             why := self.no_beat or unseen_beat(seen["beat"], beat_frequency(self.scene))
         ):
@@ -241,10 +241,12 @@ class Probe:
         return self._run(candidate, min(step, stop), stop)[1] * self.duration / stop
 
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
-        if candidate.model.fidelity > 0:
-            self.drive_periods += stop / self.scene.drive_period
         schedule = self.scene.timed(stop_time=stop, step_size=step).schedule()
-        schedule = replace(schedule, start_time=0.0, reads_twice=False)
+        return self._timed(candidate, replace(schedule, start_time=0.0, reads_twice=False))
+
+    def _timed(self, candidate: Candidate, schedule: Schedule) -> tuple[Record, float]:
+        if candidate.model.fidelity > 0:
+            self.drive_periods += float(schedule.times[-1]) / self.scene.drive_period
         return timed_run(self.instance, {**self.scene.parameters, **candidate.parameters}, schedule)
 
     def _together(self, step: float) -> int:
@@ -264,7 +266,7 @@ class Probe:
         key = step if must_hold(self.scene, interpolates=self.instance.fmu.interpolates) else 0.0
         if key not in self._references:
             exact = self._leaps[1] if self.leaps_serve else self.finest
-            self._references[key] = self._exact_run(exact, self.duration, step)[0]
+            self._references[key] = self._exact_run(exact, step)[0]
         return self._references[key]
 
     @cached_property
@@ -273,55 +275,52 @@ class Probe:
 
         The CPU time of a beginning of resolved motion decides.
         """
-        has_orders, whole = self.instance.fmu.has_orders, self.duration
-        head = min(whole, HEAD_PERIODS * self.scene.drive_period)
-        resolved = self._exact_run(self.finest, head, head)[1] * whole / head
-        if resolved <= SHORT or not has_orders or "event_times" in self.run_needs:
+        if not self.instance.fmu.has_orders or "event_times" in self.run_needs:
+            return False
+        resolved = self.cost(self.finest, HEAD_PERIODS * self.scene.drive_period)
+        if resolved <= SHORT:
             return False
         try:
-            coarse, seconds = self._exact_run(self._leaps[0], whole, whole)
+            coarse, seconds = self._exact_run(self._leaps[0], self.duration)
             if GAIN * seconds > resolved:
                 return False
-            fine, _ = self._exact_run(self._leaps[1], whole, whole)
+            fine, _ = self._exact_run(self._leaps[1], self.duration)
         except FmuError:
             return False
-        errors = self._readings(whole, self._finest_step).errors(coarse, fine)
+        errors = self._readings(self._finest_step).errors(coarse, fine)
         return all(
             found.error <= TRUSTED * self.run_needs[name].at(found.magnitude)
             for name, found in errors.items()
         )
 
-    def _readings(self, stop: float, step: float) -> Readings:
-        """Return when runs up to `stop` (s) are read: at each of the scene's steps, or at the end.
+    def _readings(self, step: float) -> Readings:
+        """Return when runs are read: at each of the scene's steps, or at the end.
 
         A beat of a candidate with a `step` (s) is read at each of these.
         """
-        points, grid = np.array([stop]), np.empty(0)
+        points, grid = np.array([self.duration]), np.empty(0)
         if SIGNAL_NEEDS & self.run_needs.keys():
             own = self.scene.step_size or self.duration
             own *= self._together(own)
-            points = self.scene.timed(stop_time=stop, step_size=own).schedule().times
+            points = self.scene.timed(step_size=own).schedule().times
         if "beat" in self.run_needs:
-            grid = communication_points(stop, step)[:-1]
+            grid = communication_points(self.duration, step)[:-1]
         law = self.reference_model.friction_law
         return Readings(self.run_needs, points, grid, self.scene.drive_period, law)
 
-    def _exact_run(self, candidate: Candidate, stop: float, step: float) -> tuple[Record, float]:
-        """Return a run up to `stop` (s) without the error of held inputs, and its CPU time (s).
+    def _exact_run(self, candidate: Candidate, step: float) -> tuple[Record, float]:
+        """Return a run without the error of held inputs, and its CPU time (s).
 
         Where inputs must be held, it is a reference of candidates with a `step` (s).
         """
-        readings = self._readings(stop, self._finest_step)
-        points = np.union1d(readings.points, readings.grid)
-        points = np.concatenate([[0.0], points[(points > 0.0) & (points < stop)], [stop]])
+        readings = self._readings(self._finest_step)
+        points = np.union1d(np.append(readings.points, 0.0), readings.grid)
         if candidate.model.fidelity > 0:
-            self.drive_periods += stop / self.scene.drive_period
-            pieces = np.arange(0.0, stop, MAX_PERIODS * self.scene.drive_period)
+            pieces = np.arange(0.0, self.duration, MAX_PERIODS * self.scene.drive_period)
             points = np.union1d(points, pieces)
-        fine = min(step / STEPS, stop / MIN_POINTS)
-        while stop / fine > MAX_POINTS and fine < 0.5 * step:
+        fine = min(step / STEPS, self.duration / MIN_POINTS)
+        while self.duration / fine > MAX_POINTS and fine < 0.5 * step:
             fine *= 2.0
         interpolates = self.instance.fmu.interpolates
         schedule = exact_schedule(self.scene, points, fine, interpolates=interpolates)
-        values = {**self.scene.parameters, **candidate.parameters}
-        return timed_run(self.instance, values, schedule)
+        return self._timed(candidate, schedule)
