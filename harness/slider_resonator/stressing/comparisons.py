@@ -11,9 +11,8 @@ from slider_resonator.checks.natural_scale import fast_velocity, largest_fast_ve
 from slider_resonator.device.device import FULL
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.stressing.case import MARGIN, MIN_DIVISIBLE, Case
+from slider_resonator.stressing.case import MARGIN, MEAN, MIN_DIVISIBLE, SIGNALS, Case, Observation
 from slider_resonator.stressing.invariants import BoundCheck, largest
-from slider_resonator.stressing.observe import MEAN, SIGNALS, Observation
 
 REFERENCE = "reference"
 """Name of the check against a reference that shares no code with the FMU."""

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.natural_scale import fast_velocity
-from slider_resonator.stressing.case import MARGIN, Case
-from slider_resonator.stressing.observe import Observation
+from slider_resonator.stressing.case import MARGIN, Case, Observation
 
 Exact = NDArray[np.longdouble]
 

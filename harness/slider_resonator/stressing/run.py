@@ -19,10 +19,9 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.stressing import comparisons
-from slider_resonator.stressing.case import RANDOM, Case, name_of
+from slider_resonator.stressing.case import RANDOM, Case, Observation, name_of, observe
 from slider_resonator.stressing.comparisons import NO_REFERENCE, REFERENCE
 from slider_resonator.stressing.invariants import BoundCheck, finite, invariants
-from slider_resonator.stressing.observe import Observation, observe
 
 PASSED = "passed"
 REFUSED = "refused by name"

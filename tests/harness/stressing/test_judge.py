@@ -6,9 +6,8 @@ from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.stressing.axes import axis_cases
-from slider_resonator.stressing.case import Case, Hold
+from slider_resonator.stressing.case import Case, Hold, Observation, observe
 from slider_resonator.stressing.comparisons import REFERENCE, REFERENCE_ERROR, has_reference
-from slider_resonator.stressing.observe import Observation, observe
 from slider_resonator.stressing.run import FAILED, MAX_RELATIVE_COST, PASSED, REFUSED, judge
 
 HOLDS = (Hold(1e-4, 60),)

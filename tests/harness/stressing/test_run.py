@@ -16,10 +16,17 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import no_progress
 from slider_resonator.stressing import comparisons
 from slider_resonator.stressing.axes import CHEAP, axis_cases
-from slider_resonator.stressing.case import MODELS, RANDOM, Case, Hold, name_of
+from slider_resonator.stressing.case import (
+    MODELS,
+    RANDOM,
+    Case,
+    Hold,
+    Observation,
+    name_of,
+    observe,
+)
 from slider_resonator.stressing.comparisons import NO_REFERENCE, REFERENCE
 from slider_resonator.stressing.invariants import BoundCheck
-from slider_resonator.stressing.observe import Observation, observe
 from slider_resonator.stressing.random_cases import random_case
 from slider_resonator.stressing.report import write_stress_page
 from slider_resonator.stressing.run import (
