@@ -30,18 +30,13 @@ MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""
 SAME_COST = 1.05
 """Quotient of two costs that counts as a tie: measured times scatter."""
-TIGHTER = 2
-"""Tolerances below the largest one that serves which may cost less where periods are leapt over."""
 ROUNDING = 1e-9
 """Share of a step that is rounding."""
 MAX_COST_RATIO = 5.0
 """Cost of resolved motion by its beginning, over that of another model, beyond which all of it is
 not run: the beginning, in which the resonator rings, can cost some times more than the rest."""
-NEAR, DISTURBANCE = 2.0, 1e-3
-"""Cost over the smallest one up to which candidates are timed again, and CPU time (s) by which a
-first timing may be too long."""
-ROUNDS, ENOUGH = 25, 0.4
-"""Times that they are run in turn, at most, and CPU time (s) after which no other turn begins."""
+ROUNDS = 25
+"""Times that candidates are timed in turn, at most."""
 TIME_LIMIT = 600.0
 """Default time limit of a choice, s."""
 
@@ -218,7 +213,8 @@ class Choosing:
         others = choices[:-1]  # the tightest serves
         index = bisect_left(others, True, key=lambda one: excess(one, step) <= 1.0)
         found = [self._evaluate(Candidate(model, choices[index], step))]
-        for tolerance in choices[index + 1 : index + 1 + TIGHTER] if model.leaps else ():
+        # Two smaller tolerances may cost less where periods are leapt over.
+        for tolerance in choices[index + 1 : index + 3] if model.leaps else ():
             if excess(tolerance, step) >= found[-1].excess:
                 break  # nothing is leapt over
             found.append(self._evaluate(Candidate(model, tolerance, step)))
@@ -262,13 +258,17 @@ class Choosing:
         return self._steady[key]
 
     def _timed_again(self, good: Sequence[Evaluation]) -> list[Evaluation]:
-        """Return candidates with the smallest of several costs, measured in turn."""
+        """Return candidates with the smallest of several costs, measured in turn.
+
+        Those of up to twice the smallest are timed again, as a first timing may be 1 ms too long,
+        until that has taken 0.4 s of CPU time.
+        """
         costs = {one.candidate: one.cost for one in good}
         began = time.process_time()
         for _ in range(ROUNDS):
-            longest = NEAR * min(costs.values()) + DISTURBANCE
+            longest = 2.0 * min(costs.values()) + 1e-3
             near = [one for one, cost in costs.items() if cost <= longest]
-            if len(near) == 1 or time.process_time() - began > ENOUGH:
+            if len(near) == 1 or time.process_time() - began > 0.4:
                 break
             for candidate in near:
                 cost = self.probe.cost(candidate) if self.probe.run_needs else 0.0
@@ -310,25 +310,20 @@ class Choosing:
         )
 
 
-STALLED = 0.7
-"""A refinement that leaves more than this share of the error does not converge."""
-PATIENCE = 2
-"""Refinements in turn that must stall: coarse ones can be outside the range of convergence."""
-
-
 def coarsest(excess: Callable[[int], float], count: int, fine: int = 0) -> int | None:
     """Return the smallest index below `count` with `excess(index)` <= 1, None where none has.
 
-    `excess` is error over allowed error. Gives up where the error does not fall, but not above
-    index `fine`: coarser ones may miss what happens.
+    `excess` is error over allowed error. Gives up where two refinements in turn leave more than 0.7
+    of it: a single one can be outside the range of convergence. But not above index `fine`: coarser
+    ones may miss what happens.
     """
     stalled, before = 0, inf
     for index in range(count):
         found = excess(index)
         if found <= 1.0:
             return index
-        stalled = stalled + 1 if isfinite(found) and found > STALLED * before else 0
-        if stalled >= PATIENCE and index >= fine:
+        stalled = stalled + 1 if isfinite(found) and found > 0.7 * before else 0
+        if stalled >= 2 and index >= fine:
             return None
         before = found
     return None

@@ -17,8 +17,6 @@ from slider_resonator.steady.periodic import SLOW
 
 ROUNDING = {0: 1e-12, 1: 1e-10}
 """Error of the resolved run itself, by friction law, as a share of the magnitude."""
-EVENT_ROUNDING = 1e-10
-"""The same for the times of events, as a share of the drive period."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +76,7 @@ class Readings:
         shown = np.unique(_at(self.points, record, "last_event_time"))
         events = np.unique(reference["last_event_time"])
         apart = peak(shown - events[nearest(events, shown)])
-        return ErrorEstimate(max(apart, EVENT_ROUNDING * self.period), self.period)
+        return ErrorEstimate(max(apart, 1e-10 * self.period), self.period)
 
     def _beat(self, record: Record, reference: Record) -> ErrorEstimate:
         later = self.grid[len(self.grid) // 2 :]
@@ -98,8 +96,6 @@ def _at(points: Array, record: Record, name: str) -> Array:
 
 MIN_BEATS = 2.0
 """Beats in the later half of a run from which their frequency can be read."""
-SHOWN = 0.2
-"""Distance of a frequency from the beat or a multiple of it, in beats, up to which it is that."""
 
 
 def beat_frequency(scene: Scene) -> float:
@@ -133,7 +129,7 @@ def unseen_beat(seen: ErrorEstimate, beat: float) -> str:
     elsewhere.
     """
     found = seen.magnitude
-    if any(abs(found - n * beat) <= SHOWN * beat for n in (1, 2, 3)):
+    if any(abs(found - n * beat) <= 0.2 * beat for n in (1, 2, 3)):
         return ""
     where = f"no beat of {beat:.4g} Hz in the resolved run"
     return seen.reason or f"{where}: its strongest oscillation has {found:.4g} Hz"

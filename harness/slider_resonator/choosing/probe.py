@@ -55,10 +55,6 @@ def timed_run(
     return record, record.start_cpu + record.step_cpu
 
 
-SOLVED = 1e-10
-"""Accuracy of a solution by shooting, as a share of its size, but for that of the integration."""
-
-
 def find(
     instance: Instance, values: Mapping[str, float], name: str, candidate: Candidate
 ) -> SteadyAnswer:
@@ -88,7 +84,7 @@ def steady_error(found: SteadyAnswer, reference: SteadyAnswer, law: int) -> Erro
         return ErrorEstimate(inf, 0.0, reference.reason)
     if found.value is None:
         return ErrorEstimate(inf, abs(reference.value), found.reason)
-    floor = max(SOLVED, ROUNDING[law]) * abs(reference.value)
+    floor = max(1e-10, ROUNDING[law]) * abs(reference.value)  # of a solution by shooting
     return ErrorEstimate(max(abs(found.value - reference.value), floor), abs(reference.value))
 
 
@@ -135,14 +131,6 @@ TIMED_STEPS = 2000
 """Steps of a beginning that gives the cost of a candidate whose steps are put together."""
 MAX_FOLLOWED_STEPS = 100_000
 """Steps of a candidate beside a reference that follows lines of inputs, where inputs vary."""
-LEAP_TOLERANCES = (1e-9, 1e-11)
-"""Tolerances of two runs with leaps, whose difference bounds the error of the finer one."""
-TRUSTED = 0.1
-"""Share of an allowed error up to which these may differ."""
-SHORT = 0.3
-"""CPU time (s) of the resolved run up to which it is always made."""
-GAIN = 3.0
-"""Quotient of CPU times from which on leaps gain enough for a second run."""
 HEAD_PERIODS = 300.0
 """Drive periods from which the CPU time of resolved motion is measured."""
 STEPS, MIN_POINTS, MAX_POINTS = 8, 4000, 20_000
@@ -152,8 +140,6 @@ MAX_PERIODS = 10_000.0
 """Drive periods in a step of resolved motion: FMUs bound the work of a step."""
 SIGNAL_NEEDS = frozenset({"position", "velocity", "mean_velocity_throughout", "event_times"})
 """Needs that are judged at every step of the scene, not at its end only."""
-FINEST = 64
-"""Maximum steps in a drive period."""
 
 
 class Probe:
@@ -176,7 +162,8 @@ class Probe:
         self.reference_model = Model(2, scene.device.friction_law)
         self.finest = Candidate(self.reference_model, 1e-13, None)
         leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
-        self._leaps = [Candidate(leaps, tolerance, None) for tolerance in LEAP_TOLERANCES]
+        # The difference of two tolerances bounds the error of the finer one.
+        self._leaps = [Candidate(leaps, tolerance, None) for tolerance in (1e-9, 1e-11)]
         self.no_beat = lacking_beat(scene) if "beat" in self.run_needs else ""
         """Reason why a run shows no beat; empty where it shows one or none is needed."""
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
@@ -213,7 +200,7 @@ class Probe:
         halvings = ceil(log2(first / shortest))
         if self.varying:
             most = MAX_FOLLOWED_STEPS if self.instance.fmu.interpolates else MAX_STEPS
-            halvings = floor(log2(first / min(first, max(period / FINEST, duration / most))))
+            halvings = floor(log2(first / min(first, max(period / 64, duration / most))))
         return tuple(first * 2.0**-index for index in range(halvings + 1))
 
     def measure(self, candidate: Candidate) -> tuple[Estimates, float]:
@@ -273,23 +260,25 @@ class Probe:
     def leaps_serve(self) -> bool:
         """Whether leaps cost far less than resolved motion, and are accurate enough.
 
-        The CPU time of a beginning of resolved motion decides.
+        The resolved run, estimated by its beginning, must take more than 0.3 s of CPU time and
+        three times that of leaps, and two runs with leaps must differ by less than a tenth of what
+        the needs allow.
         """
         if not self.instance.fmu.has_orders or "event_times" in self.run_needs:
             return False
         resolved = self.cost(self.finest, HEAD_PERIODS * self.scene.drive_period)
-        if resolved <= SHORT:
+        if resolved <= 0.3:
             return False
         try:
             coarse, seconds = self._exact_run(self._leaps[0], self.duration)
-            if GAIN * seconds > resolved:
+            if 3.0 * seconds > resolved:
                 return False
             fine, _ = self._exact_run(self._leaps[1], self.duration)
         except FmuError:
             return False
         errors = self._readings(self._finest_step).errors(coarse, fine)
         return all(
-            found.error <= TRUSTED * self.run_needs[name].at(found.magnitude)
+            found.error <= 0.1 * self.run_needs[name].at(found.magnitude)
             for name, found in errors.items()
         )
 

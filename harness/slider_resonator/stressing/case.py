@@ -17,12 +17,8 @@ from slider_resonator.device.model import Model
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 
-SUBSTEPS = 3
-"""Substeps per step in the second partition of a case, for steps that do not repeat."""
 MIN_DIVISIBLE = 1e-300
 """Steps up to this size, s, are not divided."""
-LEAP_TOLERANCE = 1e-6
-"""Tolerance under which averages of second order leap over periods, where none is given."""
 MARGIN = 10.0
 """Largest error of the slow velocity in leaps, over `tolerance` times the fast velocity."""
 RANDOM = "random device"
@@ -106,7 +102,7 @@ class Case:
     @property
     def settings(self) -> dict[str, float]:
         """All parameters that are set in the FMU."""
-        usual = {"tolerance": LEAP_TOLERANCE} if self.model.leaps else {}
+        usual = {"tolerance": 1e-6} if self.model.leaps else {}  # loose enough to leap
         return {**usual, **self.parameters, **self.model.parameters}
 
     @property
@@ -158,7 +154,7 @@ class Case:
         if any(hold.count > 1 for hold in self.holds):
             return tuple(replace(h, size=h.duration, count=1) for h in self.holds)
         return tuple(
-            replace(h, size=h.size / SUBSTEPS, count=SUBSTEPS) if h.size > MIN_DIVISIBLE else h
+            replace(h, size=h.size / 3, count=3) if h.size > MIN_DIVISIBLE else h
             for h in self.holds
         )
 
@@ -167,8 +163,6 @@ SIGNALS = ("position", "velocity", "resonator_displacement", "resonator_velocity
 """Outputs of resolved motion that are compared."""
 MEAN = ("position", "mean_velocity")
 """Those of averaged motion."""
-BASELINE_STEPS = 5
-"""Steps of a drive period, or of the whole run if that is shorter, that measure its cost."""
 
 
 @dataclass(frozen=True)
@@ -210,8 +204,8 @@ def observe(instance: Instance, case: Case) -> Observation:
             for name, other in others.items()
         }
         size = min(case.period, case.duration)
-        baseline = (Hold(size, BASELINE_STEPS, *case.holds[0].inputs, tuned=case.holds[0].tuned),)
-        _, periods = _run(instance, replace(case, holds=baseline, start_time=0.0))
+        baseline = replace(case.holds[0], size=size, count=5)
+        _, periods = _run(instance, replace(case, holds=(baseline,), start_time=0.0))
     except Refusal as refusal:
         return Observation(refusal=str(refusal))
     steps = zip(case.sizes, first_costs, second_costs, strict=True)

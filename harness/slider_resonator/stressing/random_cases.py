@@ -17,24 +17,12 @@ from slider_resonator.device.model import Model
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.stressing.case import MODELS, RANDOM, Case, Hold
 
-RESOLVED_PERIODS = (0.3, 30.0)
-AVERAGED_PERIODS = (3.0, 3000.0)
-"""Shortest and longest run, in drive periods."""
-SECOND_ORDER_PERIODS = (20.0, 800.0)
-"""The same with averages of second order, whose reference is resolved."""
-SECOND_ORDER_STEPS = 4
-"""Most steps of half of these runs: long ones, of which periods are leapt over."""
-FRICTION_SHARES = (1e-4, 0.03)
-"""Friction over the drive force with averages of second order: slow motion."""
-MAX_LUGRE_RELAXATIONS = 20.0
-"""Longest averaged run with LuGre friction, in times in which friction stops the fast velocity."""
 TUNABLES = (
     *("normal_preload", "normal_amplitude", "base_amplitude"),
     *("tangential_force", "friction_coefficient"),
 )
 """Parameters that are tuned by up to a factor of two; the drive frequency by up to a tenth."""
 RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 0.5, 1.5, 1.01, 1.0002, 0.97, 0.003)
-START_TIMES = (0.0, 0.0, 0.0, 1e-3, -5.0, 12.5, 1e4)
 
 
 def random_case(seed: int, number: int) -> Case:
@@ -47,7 +35,7 @@ def random_case(seed: int, number: int) -> Case:
     if model.friction_law == 1:
         values |= _bristles(random, values)
     holds = _holds(random, Device.from_mapping(values), model)
-    start_time = random.choice(START_TIMES)
+    start_time = random.choice((0.0, 0.0, 0.0, 1e-3, -5.0, 12.5, 1e4))
     return Case(RANDOM, f"seed {seed}, case {number}", model, values, holds, start_time)
 
 
@@ -97,7 +85,7 @@ def _light_friction(random: Random, values: Mapping[str, float]) -> dict[str, fl
     damping = decades(random, log10(0.005), 0.0)  # transients must decay
     parameters = {**values, "damping_ratio": damping}
     device = Device.from_mapping(parameters)
-    share = decades(random, *map(log10, FRICTION_SHARES))
+    share = decades(random, -4.0, log10(0.03))  # of the drive force: slow motion
     friction = abs(equivalent_force(device).amplitude) * share
     preload = friction / (device.friction_faces * device.friction_coefficient)
     varies = device.normal_amplitude / device.normal_preload
@@ -126,17 +114,17 @@ def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
 
 def _times(random: Random, device: Device, model: Model) -> list[float]:
     """Return the communication points (s), at random or in equal steps with a shorter last one."""
-    low, high = AVERAGED_PERIODS if model.averages else RESOLVED_PERIODS
-    if model.leaps:
-        low, high = SECOND_ORDER_PERIODS
+    low, high = (3.0, 3000.0) if model.averages else (0.3, 30.0)
+    if model.leaps:  # their reference is resolved
+        low, high = 20.0, 800.0
     duration = tau / device.drive_frequency * decades(random, log10(low), log10(high))
     if model.averages and model.friction_law == 1:
         fast = equivalent_force(device).velocity_amplitude
-        longest = MAX_LUGRE_RELAXATIONS * device.total_mass * fast / device.mean_friction
-        duration = min(duration, longest)
+        # Friction stops the fast velocity within a 20th of that.
+        duration = min(duration, 20.0 * device.total_mass * fast / device.mean_friction)
     count = random.randint(1, 60)
-    if model.leaps and random.random() < 0.5:
-        count = random.randint(1, SECOND_ORDER_STEPS)
+    if model.leaps and random.random() < 0.5:  # long steps, of which periods are leapt over
+        count = random.randint(1, 4)
     inside = sorted(random.uniform(0.0, 1.0) for _ in range(count - 1))
     if random.random() < 0.5:
         inside = [i / (count - random.uniform(0.1, 1.0)) for i in range(1, count)]

@@ -25,15 +25,9 @@ USUAL_STEP = 10.0
 TOLERANCES = (1e-4, 1e-6, 1e-10, 1e-12)
 """Of LuGre friction, besides the one that the FMU starts with."""
 USUAL_TOLERANCE = 1e-8
-LEAP_STEP = 1000.0
-"""The step for other tolerances of leaps."""
 LEAP_TOLERANCES = (1e-5, 1e-6, 1e-7)
 """Of motion that leaps, besides the usual one."""
-AVERAGING_ORDERS: tuple[int | None, ...] = (2, 1)
 OUTPUTS = ("position", "velocity", "mean_velocity")
-SHORTEST = 2e-3
-"""Shortest CPU time (s) of a measurement; shorter runs are repeated up to MAX_RUNS times."""
-MAX_RUNS = 20
 
 
 class FmuMethods:
@@ -45,7 +39,7 @@ class FmuMethods:
         self.fmu = fmu
         self.interpolates: bool = fmu.run(attrgetter("fmu.interpolates"))
         has_orders = fmu.run(attrgetter("fmu.has_orders"))
-        self.orders = AVERAGING_ORDERS if has_orders else (None,)
+        self.orders: tuple[int | None, ...] = (2, 1) if has_orders else (None,)
         own = problem.device.friction_law
         self.models = [Model(2, own), Model(1, own), *(Model(0, own, n) for n in self.orders)]
 
@@ -71,7 +65,7 @@ class FmuMethods:
             for tolerance in TOLERANCES if own == LUGRE and model.fidelity else ():
                 yield self._method(model, USUAL_STEP, tolerance)
             for tolerance in LEAP_TOLERANCES if model.leaps else ():
-                yield self._method(model, LEAP_STEP, tolerance)
+                yield self._method(model, 1000.0, tolerance)
 
     def answers(self) -> Iterator[SteadyMethod]:
         """Yield the searches for steady motion and blocking force, and the outputs of theory."""
@@ -123,7 +117,7 @@ class FmuMethods:
         def seconds(periods: int) -> float:
             schedule = self.problem.schedule(periods, size, interpolates=self.interpolates)
             taken: list[float] = []
-            while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
+            while not taken or (sum(taken) < 2e-3 and len(taken) < 20):  # short runs scatter
                 taken.append(self._run(values, schedule).step_cpu)
             return sum(taken) / len(taken)
 

@@ -23,8 +23,6 @@ from slider_resonator.trading.result import Row
 
 MIN_PERIODS = 1000
 """Minimum drive periods of a run under constant inputs: the longest communication step."""
-HALVINGS = 5
-"""The motion is read in windows that end at the end of the run, at half of it, and so on."""
 POINTS = 16
 """Readings in a window, which is a drive period long."""
 
@@ -115,8 +113,8 @@ class Problem:
 
     @property
     def horizons(self) -> tuple[int, ...]:
-        """The drive periods at whose ends the windows are."""
-        halves = {self.periods // 2**halving for halving in range(HALVINGS + 1)}
+        """The drive periods at whose ends the windows are: all, half of them, and so on."""
+        halves = {self.periods // 2**halving for halving in range(6)}
         return tuple(sorted(halves - {0}))
 
     def windows(self, periods: int) -> Array:

@@ -146,10 +146,6 @@ def take_step(solver: Any, began: float, advice: str) -> float:
     return time
 
 
-_SAME_INSTANT = 1e-9
-"""Share of a step by which rounding may exceed a whole number of steps."""
-
-
 def moreau_jean(
     device: Device, held: Sequence[HeldInputs], times: Array, *, steps_per_period: int
 ) -> Trajectory:
@@ -175,7 +171,7 @@ def _step_through(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period
     """Step through held inputs, and keep what is sampled in them."""
     e, recorder = run.equations, run.recorder
     rate, span = e.drive_frequency, inputs.stop - inputs.start
-    count = ceil(span * rate / (2.0 * pi) * steps_per_period * (1.0 - _SAME_INSTANT))
+    count = ceil(span * rate / (2.0 * pi) * steps_per_period * (1.0 - 1e-9))  # rounding
     h = span / count
     # The velocities v1, u1 after a step obey v1 - pull u1 = a and v1 + (1 + swing) u1 = b.
     pull = 0.5 * h * (e.coupling_damping + 0.5 * h * e.coupling_stiffness) / e.inertia
