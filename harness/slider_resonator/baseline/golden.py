@@ -17,14 +17,11 @@ from slider_resonator.scenes.csv_signal import csv_rows
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-MAX_POINTS = 48
-"""Points that are kept of a run, evenly spaced over its communication points."""
-
 SIGNALS = (
     *("position", "velocity", "resonator_displacement", "resonator_velocity"),
     *("normal_force", "friction_force", "contact_mode", "event_times"),
 )
-"""Signals kept at those points; `event_times` is the last event before each."""
+"""Signals kept at some points of a run; `event_times` is the last event before each."""
 OF_A_RUN = (
     *("mean_velocity", "stick_fraction", "reversals", "ripple_amplitude", "ripple_frequency"),
 )
@@ -63,8 +60,8 @@ def measure_golden(fmu: FmuSide) -> Golden:
             return {THE_RUN: measured}
         if name in SIGNALS:
             assert measured.times is not None
-            last = len(measured.times) - 1
-            kept = np.unique(np.rint(np.linspace(0, last, min(last + 1, MAX_POINTS))).astype(int))
+            count = len(measured.times)
+            kept = np.rint(np.linspace(0, count - 1, min(count, 48))).astype(int)
             measured = replace(measured, value=measured.value[kept], times=measured.times[kept])
         found[name] = measured
     if "ripple_amplitude" not in found:  # too few points to see a ripple

@@ -184,8 +184,6 @@ SCENE_DIGEST = "scene_sha256"
 SCENE_FILE = "scene_file"
 BUILT_IN = "built in"
 """In place of the file of a built-in scene."""
-TIME_KEYS = {"stop_time", "drive_periods", "step_size", "steps_per_period"}
-"""Keys of [run] that say the same in several ways."""
 
 
 def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> dict[str, str]:
@@ -210,7 +208,8 @@ def scene_digest(scene: Scene) -> str:
     swept = scene.sweep and (scene.sweep.variable, scene.sweep.values)
     over_time = sorted({**scene.signals, **scene.tuning}.items())
     signals = [(name, s.times, s.values, s.hold) for name, s in over_time]
-    run = scene.run and scene.run.model_dump(exclude_defaults=True, exclude=TIME_KEYS)
+    several_ways = {"stop_time", "drive_periods", "step_size", "steps_per_period"}
+    run = scene.run and scene.run.model_dump(exclude_defaults=True, exclude=several_ways)
     content = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size)
     return hashlib.sha256(repr((*content, swept, run)).encode()).hexdigest()
 

@@ -12,8 +12,6 @@ from slider_resonator.scenes.key_table import units_of
 from slider_resonator.scenes.needs import NeedTable
 from slider_resonator.scenes.scene import Scene
 
-TOLERANCES = tuple(10.0**-digits for digits in range(3, 13))
-"""Tolerances of LuGre friction and of leaps, from the cheapest on."""
 START_TOLERANCE = 1e-8
 """The FMU's start value, answered where the model has no use for a tolerance."""
 
@@ -39,8 +37,10 @@ def uses_tolerance(model: Model) -> bool:
 
 
 def tolerances(model: Model) -> tuple[float, ...]:
-    """Return the tolerances to choose from, descending."""
-    return TOLERANCES if uses_tolerance(model) else (START_TOLERANCE,)
+    """Return the tolerances to choose from, from the cheapest on."""
+    if uses_tolerance(model):
+        return tuple(10.0**-digits for digits in range(3, 13))
+    return (START_TOLERANCE,)
 
 
 @dataclass(frozen=True)

@@ -32,9 +32,6 @@ SAME_COST = 1.05
 """Quotient of two costs that counts as a tie: measured times scatter."""
 ROUNDING = 1e-9
 """Share of a step that is rounding."""
-MAX_COST_RATIO = 5.0
-"""Cost of resolved motion by its beginning, over that of another model, beyond which all of it is
-not run: the beginning, in which the resonator rings, can cost some times more than the rest."""
 ROUNDS = 25
 """Times that candidates are timed in turn, at most."""
 TIME_LIMIT = 600.0
@@ -184,12 +181,11 @@ class Choosing:
         """
         if model.fidelity == 0 and "event_times" in self.needs:
             return "averaged motion has no events"
-        if (
-            model.fidelity > 0
-            and best is not None
-            and (cost := self._cost_of(model)) > MAX_COST_RATIO * best.cost
-        ):
-            return f"costs about {cost:.3g} s, {best.candidate.model.name} {best.cost:.3g} s"
+        if model.fidelity > 0 and best is not None:
+            cost = self._cost_of(model)
+            # The beginning, in which the resonator rings, can cost some times more than the rest.
+            if cost > 5.0 * best.cost:
+                return f"costs about {cost:.3g} s, {best.candidate.model.name} {best.cost:.3g} s"
         choices, steps = tolerances(model), self.steps(model)
         refused = ""
 

@@ -129,8 +129,6 @@ MAX_STEPS = 10_000
 """Steps of a candidate whose steps can be put together in the probe, or that holds inputs."""
 TIMED_STEPS = 2000
 """Steps of a beginning that gives the cost of a candidate whose steps are put together."""
-MAX_FOLLOWED_STEPS = 100_000
-"""Steps of a candidate beside a reference that follows lines of inputs, where inputs vary."""
 HEAD_PERIODS = 300.0
 """Drive periods from which the CPU time of resolved motion is measured."""
 STEPS, MIN_POINTS, MAX_POINTS = 8, 4000, 20_000
@@ -199,7 +197,8 @@ class Probe:
         first = own * 2.0 ** floor(log2(longest / own * (1.0 + 1e-9)))
         halvings = ceil(log2(first / shortest))
         if self.varying:
-            most = MAX_FOLLOWED_STEPS if self.instance.fmu.interpolates else MAX_STEPS
+            # A reference that follows lines of inputs costs no more beside many steps.
+            most = 100_000 if self.instance.fmu.interpolates else MAX_STEPS
             halvings = floor(log2(first / min(first, max(period / 64, duration / most))))
         return tuple(first * 2.0**-index for index in range(halvings + 1))
 

@@ -19,7 +19,7 @@ from slider_resonator.stressing.case import MODELS, RANDOM, Case, Hold
 
 TUNABLES = (
     *("normal_preload", "normal_amplitude", "base_amplitude"),
-    *("tangential_force", "friction_coefficient"),
+    *("tangential_force", "friction_coefficient", "drive_frequency"),
 )
 """Parameters that are tuned by up to a factor of two; the drive frequency by up to a tenth."""
 RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 0.5, 1.5, 1.01, 1.0002, 0.97, 0.003)
@@ -143,7 +143,7 @@ def _holds(random: Random, device: Device, model: Model) -> tuple[Hold, ...]:
     ratio = random.choice(ratios)
     tuned: dict[str, list[float]] = {}
     if len(starts) > 1 and random.random() < 0.5:
-        for name in random.sample((*TUNABLES, "drive_frequency"), random.randint(1, 6)):
+        for name in random.sample(TUNABLES, random.randint(1, 6)):
             width = 0.04 if name == "drive_frequency" else 0.3
             first = float(getattr(device, name))
             tuned[name] = [first, *(first * decades(random, -width, width) for _ in starts[1:])]

@@ -32,8 +32,6 @@ BUDGET = 1.0
 REPEATS = 5
 TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""
-SHOOTING = 1e-10
-"""Accuracy of the steady state in units of its scale."""
 
 _FAILURES = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuError)
 
@@ -58,7 +56,7 @@ def find_reference(problem: Problem) -> Reference:
         run = simulate(problem.device, held, problem.readings(periods))
         found = problem.read(solution_of(run, located=True), periods)
         sought = SEARCHES if problem.steady else ()
-        answers = {n: shoot(problem, n, simulate, SHOOTING, inf).value for n in sought}
+        answers = {n: shoot(problem, n, simulate, 1e-10, inf).value for n in sought}
     except (ValueError, RuntimeError) as error:
         raise HarnessError(
             f"scene {problem.name}: the reference cannot follow it: {error}"

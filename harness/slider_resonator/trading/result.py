@@ -119,18 +119,14 @@ class Trade(Shown, Tabular):
         return [row for row in self.having(quantity) if row.friction_law == self.friction_law]
 
 
-ROUNDING = 1e-12
-"""Errors below this are rounding over a thousand drive periods and compare as equal."""
-
-
 def front(rows: Iterable[Row], quantity: str) -> list[Row]:
     """Return the Pareto front: rows, by cost, that no other beats in both error and cost.
 
-    Errors below ROUNDING count as equal.
+    Errors below 1e-12 count as equal: they are rounding over a thousand drive periods.
     """
 
     def error(row: Row) -> float:
-        return max(row.errors[quantity], ROUNDING)
+        return max(row.errors[quantity], 1e-12)
 
     best: list[Row] = []
     for row in sorted(rows, key=lambda row: (row.cost, error(row))):

@@ -23,7 +23,6 @@ from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.trajectory import Recorder, Trajectory
 
-MAX_EVALUATIONS = 20_000_000
 STEPS_PER_FASTEST_PERIOD = 16
 """Longer steps would pass by bristles, and two events within one."""
 
@@ -37,7 +36,7 @@ def simulate(
     rtol: float = 1e-11,
     atol: float = 1e-13,
     width: float = 0.0,
-    max_evaluations: int = MAX_EVALUATIONS,
+    max_evaluations: int = 20_000_000,
 ) -> Trajectory:
     """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
 

@@ -25,9 +25,6 @@ from slider_resonator.trading.peers.event_free import STEPS_PER_FASTEST_PERIOD, 
 Dense = Callable[[float | Array], Array]
 """States, shape (4,) or (4, n), at a time or at times (n,) within a step."""
 
-_SEARCHED_PER_STEP = 8
-_NOISE = 1e-15
-
 
 def simulate(
     device: Device,
@@ -101,12 +98,12 @@ def _first_event(
     """Return time (s) and direction of the first event within a step, None if there is none."""
     if segment.mode == LIFTED:
         return None
-    grid = np.linspace(start, stop, _SEARCHED_PER_STEP + 1)
+    grid = np.linspace(start, stop, 9)
     crossings = []
     for event in (-segment.mode,) if segment.mode else (1, -1):
         margin = partial(_margin, segment, dense, event)
         values = margin(grid)
-        falls = np.flatnonzero(values[1:] < -_NOISE * np.abs(values).max())
+        falls = np.flatnonzero(values[1:] < -1e-15 * np.abs(values).max())
         if falls.size:
             left, right = grid[falls[0] :][:2].tolist()
             crossings.append((_crossing(margin, left, right, float(np.abs(values).max())), event))
