@@ -26,13 +26,7 @@ from slider_resonator.checks.validate import Judged, RunFailure, Validation, jud
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.fmu.provenance import (
-    FmuIdentity,
-    digest_of,
-    identity_of,
-    provenance_of,
-    provenance_properties,
-)
+from slider_resonator.fmu.provenance import digest_of, provenance_of, provenance_properties
 from slider_resonator.output.files import make_folder, write_text
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.scenes.scene import Scene, ScenePoint
@@ -186,20 +180,6 @@ BUILT_IN = "built in"
 """In place of the file of a built-in scene."""
 
 
-def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> dict[str, str]:
-    """Return FMU, scene, host and tools; the scene's file as seen from the baseline's folder."""
-    found = provenance_of(fmu)
-    is_built_in = built_in_scenes().get(scene.name) == scene.files[0]
-    return {
-        **provenance_properties(found, fmu),
-        "fmu": Path(fmu.fmu).name,
-        "date": found.date.partition("T")[0],  # recorded again on a day, the file is the same
-        "scene": scene.name,
-        SCENE_FILE: BUILT_IN if is_built_in else _seen_from(folder, scene.files[0]),
-        SCENE_DIGEST: scene_digest(scene),
-    }
-
-
 def scene_digest(scene: Scene) -> str:
     """Return the SHA-256 of a scene without its names and expectations.
 
@@ -214,8 +194,11 @@ def scene_digest(scene: Scene) -> str:
     return hashlib.sha256(repr((*content, swept, run)).encode()).hexdigest()
 
 
-def _seen_from(folder: Path, file: Path) -> str:
-    """Return the relative path of a file, with slashes on every platform."""
+def _seen_from(folder: Path, scene: Scene) -> str:
+    """Return the relative path of the file of a scene, with slashes on every platform."""
+    file = scene.files[0]
+    if built_in_scenes().get(scene.name) == file:
+        return BUILT_IN
     try:
         return Path(os.path.relpath(file, folder)).as_posix()
     except ValueError:  # on another drive of Windows
@@ -238,8 +221,10 @@ def _run(
         pass  # one that cannot be opened is no run failure, and nothing is made in `folder` for it
     make_folder(folder)
     found: dict[str, dict[At, Golden]] = {scene.name: {} for scene in scenes}
-    identity = identity_of(fmu)
-    origins = {scene.name: provenance(identity, scene, folder) for scene in scenes}
+    provenance = provenance_of(fmu)
+    origin = provenance_properties(provenance, provenance.fmus[0])
+    # Recorded again on a day, the file is the same.
+    origin |= {"fmu": fmu.name, "date": provenance.date.partition("T")[0]}
 
     def keep(point: ScenePoint, golden: Golden) -> Iterable[Judged]:
         if THE_RUN in golden:
@@ -249,5 +234,10 @@ def _run(
 
     points = [point for scene in scenes for point in scene.points()]
     ran = judge_points(fmu, points, measure_golden, keep, progress, time_limit)
-    whole = [scene.name for scene in scenes if len(found[scene.name]) == len(scene.points())]
-    return ran, {name: Recorded(found[name], origins[name]) for name in whole}
+    recorded = {}
+    for scene in scenes:
+        if len(found[scene.name]) == len(scene.points()):
+            about = {SCENE_FILE: _seen_from(folder, scene), SCENE_DIGEST: scene_digest(scene)}
+            about = {**origin, "scene": scene.name, **about}
+            recorded[scene.name] = Recorded(found[scene.name], about)
+    return ran, recorded

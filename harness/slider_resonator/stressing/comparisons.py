@@ -41,8 +41,7 @@ def equalities(case: Case, seen: Observation) -> Iterator[BoundCheck]:
     last = {name: signal[-1:] for name, signal in own.items()}
     for name, other in seen.others.items():
         yield _largest(name, last, other, allowed)
-    replayed = 0.0 if seen.replayed else 2.0
-    yield BoundCheck("replay", replayed, "a run from the same start differs")
+    yield BoundCheck("replay", 2.0 * (not seen.replayed), "a run from the same start differs")
     for limit in case.limits:
         off = seen.outputs[limit.output][-1:] - limit.value
         yield largest("limit case", off, limit.allowed, f"{limit.why}: {limit.output}")

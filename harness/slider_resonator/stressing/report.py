@@ -66,15 +66,11 @@ def _grid(axis: str, cases: Sequence[Verdict]) -> str:
 
 
 def _cell(one: Verdict) -> Cell:
-    """Return a case with its checks as note: by its margin where it passed.
-
-    What a step costs is no deviation and does not count.
-    """
+    """Return a case with its checks as note: by its margin where it passed."""
     text, style = f"{one.nearest.found:.1g}" if one.nearest else "0", Style.PLAIN
     if one.verdict != PASSED:
         text, style = ("FAIL", Style.FAIL) if one.verdict == FAILED else ("refused", Style.NOTE)
-    why = f": {one.reason}" if one.reason else ""
-    lines = [one.model, f"{one.axis}: {one.value}", one.verdict + why]
+    lines = [f"{one.verdict}: {one.reason}" if one.reason else one.verdict]
     for check in sorted(one.checks, key=lambda check: -check.found):
         lines.append(f"{check.name}: {check.found:.2g} of what is allowed")
     return Cell(text, style, note="\n".join(lines))

@@ -73,10 +73,8 @@ EXPLANATION = (
     "an FMU, nor of the first drive period, which located Taylor steps take for heyoka in one "
     "call, since it cannot start at rest. A method that would exceed its budget is followed over "
     "fewer drive periods, as listed. Inputs that ramp do so for all methods; an FMU that takes no "
-    "derivatives of inputs holds them over its steps. Peers cost what they cost a user of Python: "
-    "heyoka compiles its equations, scipy calls them in Python, and Moreau-Jean is a loop in "
-    "Python. Steps are an FMU's communication steps or an integrator's own; events are those that "
-    "were located, else reversals.</p>"
+    "derivatives of inputs holds them over its steps. Steps are an FMU's communication steps or an "
+    "integrator's own; events are those that were located, else reversals.</p>"
 )
 
 
