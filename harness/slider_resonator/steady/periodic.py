@@ -9,14 +9,11 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
-from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError, explained
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.shooting import PeriodicRun
+from slider_resonator.steady.shooting import STATE, PeriodicRun
 from slider_resonator.steady.solvers import NoPeriodicMotion
 
-STATE = ("velocity", "resonator_displacement", "resonator_velocity")
-"""The outputs that are states; the position does not matter, for nothing depends on it."""
 SLOW = 0.1
 """Distance of the frequency ratio from an integer, below which the phase runs slowly: a beat."""
 FIRM = {"normal_preload": 1.0, "normal_amplitude": 0.0, "friction_coefficient": 1e6}
@@ -45,7 +42,7 @@ class FmuPeriodMap(PeriodicRun):
 
     An FMU is run with parameters and inputs as `given`. What is in force is read back from it:
     `device`, and by name inputs and its own predictions, `values`. The state has the entries
-    `names`: those of `STATE` and, where there is a LuGre bristle that matters, its deflection.
+    `names`: those of `STATE`, with a deflection where there is a LuGre bristle that matters.
     `periods` counts every drive period that has been simulated; `sticks_throughout` says whether
     the slider stuck throughout the last one, as far as rounding tells. Raises FmuError for a drive
     frequency without drive periods, and as `Instance.start` does.
@@ -70,32 +67,28 @@ class FmuPeriodMap(PeriodicRun):
         # Averaged motion keeps no bristle.
         is_lugre = self.device.friction_law == 1 and self.device.fidelity != 0
         self.bends = is_lugre and self.friction > 0.0 and self.device.bristle_stiffness > 0.0
-        self.names = (*STATE, "bristle_deflection") if self.bends else STATE
-        self._read = instance.block(["position", *STATE, "stick_fraction"])
+        self.names = STATE if self.bends else STATE[:3]
+        self._read = instance.block(["position", *STATE[:3], "stick_fraction"])
 
-    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
+    def run(self, state: Array, load: float, periods: int, samples: int = 1) -> tuple[Array, Array]:
         """Return states and travel; the deflection of a bristle is that at the end throughout."""
         initial = zip((f"initial_{name}" for name in self.names), state.tolist(), strict=True)
         self.instance.start({**self.given, **dict(initial), "load": load})
-        read, end = [self._read.read()], float(times[-1])
-        grid = times
-        if self.instance.fmu.takes_equal_steps_only and len(times) > 1:
-            grid = np.linspace(0.0, end, round(end / float(times[1] - times[0])) + 1)[1:]
-        self.instance.check_steps(grid)
+        read, end = [self._read.read()], periods * self.drive_period
         with self.instance.explained():
-            for time in grid.tolist():
-                self.instance.step_to(time)
+            for sample in range(1, samples + 1):
+                self.instance.step_to(sample / samples * end)
                 read.append(self._read.read())
         if not np.isfinite(read).all():
             raise FmuError(
                 f"{self.instance.fmu.path.name} at t = {end:.9g} s: output is {read[-1]}"
             )
-        self.periods += round(end / self.drive_period)
+        self.periods += periods
         self.sticks_throughout = abs(read[-1][4] - 1.0) <= 1e-10
-        rows = np.array(read)[1 + nearest(grid, times)]
-        states, travel = rows[:, 1:4], rows[:, 0] - read[0][0]
+        rows = np.array(read)
+        states, travel = rows[1:, 1:4], rows[1:, 0] - rows[0, 0]
         if self.bends:
-            states = np.column_stack([states, np.full(len(rows), self._deflection())])
+            states = np.column_stack([states, np.full(samples, self._deflection())])
         return states, travel
 
     def _deflection(self) -> float:

@@ -23,8 +23,7 @@ from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.equivalent_force import steady_vibration
-from slider_resonator.steady.periodic import STATE
-from slider_resonator.steady.shooting import NEUTRAL
+from slider_resonator.steady.shooting import NEUTRAL, STATE
 
 PERIODS = 4
 """Common periods of a run: as many changes of the state tell what becomes of three of them."""
@@ -42,7 +41,7 @@ RANK = 1e-9
 class _Candidate:
     """A prediction of the point `index` and the motion that belongs to it.
 
-    `start` and `scale` are those of the entries of `STATE`, `period` (s) is the common period,
+    `start` and `scale` are those of velocity and resonator, `period` (s) is the common period,
     `velocity` (m/s) the mean velocity that the motion must have.
     """
 
@@ -155,8 +154,8 @@ def _vibration(parameters: tuple[tuple[str, float], ...]) -> tuple[complex, comp
 
 def _run(instance: Instance, one: _Candidate) -> list[list[float]]:
     """Return state, position and stick fraction after 0, 1, ... common periods, nan on an error."""
-    initial = {f"initial_{name}": value for name, value in zip(STATE, one.start, strict=True)}
-    block = instance.block((*STATE, "position", "stick_fraction"))
+    initial = {f"initial_{name}": value for name, value in zip(STATE[:3], one.start, strict=True)}
+    block = instance.block((*STATE[:3], "position", "stick_fraction"))
     try:
         with instance.explained():
             instance.initialise({**one.values, **initial})

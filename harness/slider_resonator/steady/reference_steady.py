@@ -12,10 +12,9 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.steady.shooting import PeriodicRun, blocked_point, steady_point
+from slider_resonator.steady.shooting import STATE, PeriodicRun, blocked_point, steady_point
 from slider_resonator.steady.solvers import NoPeriodicMotion
 
-STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))
 
 Simulate = Callable[[Device, Sequence[HeldInputs], Array], Trajectory]
@@ -69,12 +68,13 @@ class ReferenceMotion(PeriodicRun):
                 return blocked_point(self, *self.warm_up(0.0, 0.0), 0.0, size)[0]
         return None
 
-    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
-        """Return states and travel at the times."""
+    def run(self, state: Array, load: float, periods: int, samples: int = 1) -> tuple[Array, Array]:
+        """Return states and travel."""
         initial = dict.fromkeys(_INITIAL, 0.0)
         initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
         initial["initial_velocity"] -= self._velocity_from_rest
         device = self.device.tuned(initial.items())
+        times = np.linspace(0.0, periods * self.drive_period, samples + 1)[1:]
         held = [HeldInputs(0.0, float(times[-1]), self.phase, load, self.ratio)]
         run = self.simulate(device, held, times)
         return np.column_stack([getattr(run, name) for name in self.names]), run.position

@@ -26,21 +26,16 @@ from slider_resonator.steady.solvers import (
     solve,
 )
 
+STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
+"""The outputs that are states; the position does not matter, for nothing depends on it."""
 WARM_UP = 20
 """Drive periods run before shooting, so that the resonator's own transient is mostly gone."""
-SAMPLES = 8
-"""Points of the last of these periods that give the size of each state."""
 TOLERANCE = 1e-11
 """Accuracy of the state in units of its scale, by default."""
 NEUTRAL = 1e-7
 """A multiplier this close to the unit circle counts as neutral, within its error."""
-KINK = 0.1
-"""Difference of the one-sided multipliers, in units of 1 minus the two-sided one, from which on the
-larger of them counts."""
 DISTANCE = 1e-3
-"""Distance of the neighbours, in units of the scale."""
-CORRECTIONS = 2
-"""Newton steps that make a neighbour periodic in the fast directions."""
+"""Distance, in units of the scale, of the neighbours that tell a kink."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +82,7 @@ def fixed_point(
         error = max(NEUTRAL, tolerance / DISTANCE)
         if min(abs(side - 1.0) for side in sides) <= error:
             raise NoPeriodicMotion("not_unique", A_FAMILY, root.iterations, root.residual)
-        if abs(sides[0] - sides[1]) > KINK * abs(1.0 - multipliers[0]):
+        if abs(sides[0] - sides[1]) > 0.1 * abs(1.0 - multipliers[0]):  # a kink
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(root.x)
     return FixedPoint(root.x, displacement, root.iterations, root.residual, multipliers)
@@ -125,7 +120,7 @@ def _one_sided_multipliers(
         border = np.block([[scaled, direction[:, None]], [left[None, :], np.zeros((1, 1))]])
         for distance in (-DISTANCE, DISTANCE):
             y = distance * direction
-            for _ in range(CORRECTIONS):
+            for _ in range(2):  # of Newton's steps
                 rest = np.append(-change(x + scale * y) / scale, distance - left @ y)
                 y = y + np.linalg.solve(border, rest)[:-1]
             found.append(1.0 + float(left @ (change(x + scale * y) / scale)) / distance)
@@ -164,11 +159,11 @@ class PeriodicRun(ABC):
         return full_friction(self.device, self.phase, self.ratio)
 
     @abstractmethod
-    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
-        """Return states (m, n) and travel (m,), in m, at times (m,), in s, under a load (N).
+    def run(self, state: Array, load: float, periods: int, samples: int = 1) -> tuple[Array, Array]:
+        """Return states (samples, n) and travel (samples,), in m, under a load (N).
 
-        The run begins in a state (n,) at theta = psi = 0 and ends with the last of the times, a
-        whole number of drive periods later.
+        The run begins in a state (n,) at theta = psi = 0 and takes some drive periods, with samples
+        at equal distances up to its end.
         """
 
     def scale(self, sizes: Array) -> Array:
@@ -185,23 +180,23 @@ class PeriodicRun(ABC):
 
     def __call__(self, state: Array, load: float) -> tuple[Array, float]:
         """Return state (n,) and displacement (m) after a common period under a load (N)."""
-        states, travel = self.run(state, load, np.array([self.period]))
+        states, travel = self.run(state, load, self.drive_periods)
         return states[-1], float(travel[-1])
 
     def warm_up(self, velocity: float, load: float) -> tuple[Array, Array]:
         """Run some periods with the resonator at rest and the slider at `velocity` (m/s).
 
-        Return the state (n,) after them, shifted to that mean velocity over a drive period, and the
-        typical size of each entry (n,).
+        Return the state (n,) after them, shifted to that mean velocity over the common period, and
+        the typical size of each entry (n,) in it.
         """
-        count = ceil(WARM_UP / self.drive_periods) * self.drive_periods
-        start = np.zeros(len(self.names))
-        start[0] = velocity
-        times = np.linspace(count - 1, count, SAMPLES + 1) * self.drive_period
-        states, travel = self.run(start, load, times)
+        state = np.zeros(len(self.names))
+        state[0] = velocity
+        before = max(1, ceil(WARM_UP / self.drive_periods) - 1)  # common periods
+        states, _ = self.run(state, load, before * self.drive_periods)
+        states, travel = self.run(states[-1], load, self.drive_periods, 8 * self.drive_periods)
         state = states[-1].copy()
-        state[0] += velocity - float(travel[-1] - travel[0]) / self.drive_period
-        return state, self.scale(np.abs(states[1:]).max(axis=0))
+        state[0] += velocity - float(travel[-1]) / self.period
+        return state, self.scale(np.abs(states).max(axis=0))
 
 
 def steady_point(run: PeriodicRun, velocity: float, load: float) -> FixedPoint:

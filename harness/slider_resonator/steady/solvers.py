@@ -23,24 +23,8 @@ from slider_resonator.arrays import Array
 PeriodMap = Callable[[Array], tuple[Array, float]]
 """State (n,) at the start of a period -> state (n,) at its end, displacement over it."""
 
-DIFFERENCE = 1e-4
-"""Steps of a Jacobian, in units of the scale."""
-MAX_ITERATIONS = 60
 SINGULAR = 1e-9
 """Smallest over largest singular value of a Jacobian that counts as singular."""
-SINGULAR_STEPS = 4
-"""Last steps with a singular Jacobian: a family of zeros may be curved."""
-KEEP = 0.05
-"""Largest ratio of successive corrections for which the Jacobian is kept."""
-DAMPINGS = tuple(2.0**-halvings for halvings in range(9))
-"""Shares of a correction that are tried, in this order."""
-ROUNDING = 100.0
-"""Correction, in tolerances, that is accepted when it no longer decreases, by rounding."""
-FLAT = 1e-7
-"""Residual over correction, in units of the scale, up to which a Jacobian counts as singular where
-no step brings the zero closer: all that is left is rounding."""
-FAMILY = 1e-9
-"""Residual, in units of the scale, below which a singular map has a family of fixed points."""
 
 A_FAMILY = (
     "a whole family of motions repeats: friction does not choose among them, each start keeps its "
@@ -69,8 +53,6 @@ class Root:
     x: Array
     iterations: int
     residual: float
-    inverse: Array
-    """Inverse of the scaled Jacobian (n, n)."""
 
 
 def central_jacobian(function: Callable[[Array], Array], x: Array, scale: Array) -> Array:
@@ -78,27 +60,21 @@ def central_jacobian(function: Callable[[Array], Array], x: Array, scale: Array)
 
     Central, because their error is of second order in a step that must stay well above rounding.
     """
-    steps = DIFFERENCE * scale
+    steps = 1e-4 * scale
     changes = [function(x + shift) - function(x - shift) for shift in np.diag(steps)]
     return np.column_stack(changes) / (2.0 * steps)
 
 
 def solve(
-    function: Callable[[Array], Array],
-    guess: Array,
-    scale: Array,
-    *,
-    tolerance: float = 1e-11,
-    inverse: Array | None = None,
+    function: Callable[[Array], Array], guess: Array, scale: Array, *, tolerance: float = 1e-11
 ) -> Root:
     """Find a zero of `function`, (n,) -> (n,) and finite, the change of a state over a period.
 
     The search starts at `guess` (n,). `scale` (n,) is the typical size of each unknown and of the
-    function value beside it; `tolerance` bounds the last correction, in units of it. The `inverse`
-    of a zero nearby is tried first. Raises NoPeriodicMotion where there is no zero, or none can be
-    singled out. With a singular Jacobian some more steps are taken in the directions that it
-    determines: a residual that vanishes then shows a family of zeros, one that remains shows that
-    there is none.
+    function value beside it; `tolerance` bounds the last correction, in units of it. Raises
+    NoPeriodicMotion where there is no zero, or none can be singled out. With a singular Jacobian
+    some more steps are taken in the directions that it determines: a residual that vanishes then
+    shows a family of zeros, one that remains shows that there is none.
     """
 
     def scaled(y: Array) -> Array:
@@ -117,52 +93,46 @@ def solve(
     y = guess / scale
     iterations = 0
     value = scaled(y)
-    is_kept = inverse is not None
+    is_kept = False
     while True:
-        if inverse is None or not is_kept:
+        if not is_kept:
             jacobian = central_jacobian(scaled, y, np.ones_like(y))
             sizes = np.linalg.svd(jacobian, compute_uv=False)
             if sizes[-1] <= SINGULAR * sizes[0]:
                 break
-            inverse = np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
+            inverse = np.linalg.inv(jacobian)
         correction = -inverse @ value
         size = float(np.linalg.norm(correction))
         if size <= tolerance:
-            return Root(y * scale, iterations, residual(), inverse)
-        if iterations == MAX_ITERATIONS:
+            return Root(y * scale, iterations, residual())
+        if iterations == 60:
             raise unconverged("out of iterations")
         iterations += 1
-        for damping in DAMPINGS:
+        for damping in 0.5 ** np.arange(9):
             trial = y + damping * correction
             trial_value = scaled(trial)
             contraction = float(np.linalg.norm(inverse @ trial_value)) / size
             if contraction <= 1.0 - damping / 4.0:
                 y, value = trial, trial_value
                 break
-            if size <= ROUNDING * tolerance:
-                return Root(y * scale, iterations, residual(), inverse)
+            if size <= 100.0 * tolerance:  # it no longer decreases, by rounding
+                return Root(y * scale, iterations, residual())
         else:  # a new Jacobian may bring it closer, or rounding alone is left
-            if not is_kept and residual() > FLAT * size:
+            if not is_kept and residual() > 1e-7 * size:
                 raise unconverged("no step brings it closer")
             if not is_kept:
                 break
-        is_kept = contraction <= KEEP
+        is_kept = contraction <= 0.05
     determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
-    for _ in range(SINGULAR_STEPS):
+    for _ in range(4):  # a family of zeros may be curved
         y = y - determined @ value
         value = scaled(y)
         if residual() <= tolerance:
             break
-    if residual() <= FAMILY:
+    if residual() <= 1e-9:
         raise NoPeriodicMotion("not_unique", A_FAMILY, iterations, residual())
     drifts = f"the state drifts by {residual():.3g} of its scale in every period: no motion repeats"
     raise NoPeriodicMotion("no_fixed_point", drifts, iterations, residual())
-
-
-DOUBLINGS = 6
-"""Maximum doublings of the bounds, which begin at the scale of the slow state."""
-EXACT = 1e-14
-"""Last correction, in units of the scale, of fast states that are found to rounding."""
 
 
 def bracketed_state(period_map: PeriodMap, guess: Array, scale: Array) -> Array | None:
@@ -170,23 +140,20 @@ def bracketed_state(period_map: PeriodMap, guess: Array, scale: Array) -> Array 
 
     `guess` (n,) starts the fast entries, `scale` (n,) is the typical size of each entry.
     """
-    state, inverse = guess.copy(), None
+    state = guess.copy()
 
     def fast_change(fast: Array) -> Array:
         return period_map(np.append(state[0], fast))[0][1:] - fast
 
     def slow_change(slow: float) -> float:
         """Return the change of entry 0; leaves in `state` the state that it belongs to."""
-        nonlocal inverse
         state[0] = slow
         if len(state) > 1:
-            fast = solve(fast_change, state[1:], scale[1:], tolerance=EXACT, inverse=inverse)
-            state[1:], inverse = fast.x, fast.inverse
+            state[1:] = solve(fast_change, state[1:], scale[1:], tolerance=1e-14).x
         return float(period_map(state)[0][0]) - slow
 
     try:
-        for doubling in range(DOUBLINGS):
-            bound = float(scale[0]) * 2.0**doubling
+        for bound in (float(scale[0]) * 2.0 ** np.arange(6)).tolist():
             if slow_change(-bound) > 0.0 > slow_change(bound):
                 slow_change(scipy.optimize.brentq(slow_change, -bound, bound, xtol=1e-10 * bound))
                 return state

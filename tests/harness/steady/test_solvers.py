@@ -162,9 +162,10 @@ class _Slider(PeriodicRun):
     device = Device(drive_frequency=pi)
     drive_periods = 1
 
-    def run(self, state: Array, load: float, times: Array) -> tuple[Array, Array]:
+    def run(self, state: Array, load: float, periods: int, samples: int = 1) -> tuple[Array, Array]:
         drift = 0.01 * (0.1 - load - np.clip(state[0], -0.5, 0.5))
-        return np.array([[state[0] + drift, 0.3 * state[1]]]), times * state[0]
+        travel = periods * self.drive_period * state[:1]
+        return np.array([[state[0] + drift, 0.3 * state[1]]]), travel
 
     def scale(self, sizes: Array) -> Array:
         return np.ones_like(sizes)

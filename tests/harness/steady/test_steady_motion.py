@@ -68,12 +68,6 @@ def test_a_kept_jacobian_that_does_not_help_is_renewed(instance: Instance) -> No
     assert load == pytest.approx(find_blocking(instance, {**values, **resonator}).blocking_force)
 
 
-def test_bracketing_keeps_its_jacobian(instance: Instance) -> None:
-    motion = find_steady(instance, {"damping_ratio": 0.0})
-    assert motion.steady_velocity is not None
-    assert motion.periods <= 120
-
-
 def test_no_blocking_force(instance: Instance) -> None:
     still = {"base_amplitude": 0.0, "normal_amplitude": 0.5}
     for values, status in ((still, "stuck"), ({"frequency_ratio": 1.001}, "slow_beat")):
