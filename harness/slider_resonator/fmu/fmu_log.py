@@ -8,6 +8,7 @@ every instantiation, and it finds the collector by the instance name.
 import ast
 import re
 from collections.abc import Iterable
+from contextlib import suppress
 from ctypes import byref
 from typing import Any
 
@@ -17,7 +18,6 @@ from fmpy.fmi2 import (
     fmi2CallbackFreeMemoryTYPE,
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
-    printLogMessage,
 )
 from fmpy.logging import addLoggerProxy
 
@@ -36,13 +36,10 @@ _PYTHON_EXCEPTION = re.compile(
 
 def plain_words(message: str) -> str:
     """Return the text of an exception without pythonfmu's wrapping, others unchanged."""
-    found = _PYTHON_EXCEPTION.search(message)
-    if found is None:
-        return message
-    try:
-        return str(ast.literal_eval(found["text"]))
-    except (SyntaxError, ValueError):
-        return message
+    if found := _PYTHON_EXCEPTION.search(message):
+        with suppress(SyntaxError, ValueError):
+            return str(ast.literal_eval(found["text"]))
+    return message
 
 
 def in_one_line(messages: Iterable[str]) -> str:
@@ -50,14 +47,8 @@ def in_one_line(messages: Iterable[str]) -> str:
     return "; ".join(dict.fromkeys(" ".join(message.split()) for message in messages))
 
 
-def _dispatch(
-    environment: Any, instance_name: bytes, status: int, category: bytes, message: bytes
-) -> None:
-    collector = _collectors.get(instance_name)
-    if collector is None:
-        printLogMessage(environment, instance_name, status, category, message)
-    else:
-        keep(collector, message)
+def _dispatch(_: Any, instance_name: bytes, __: int, ___: bytes, message: bytes) -> None:
+    keep(_collectors.get(instance_name, []), message)
 
 
 def keep(messages: list[str], message: bytes | None) -> None:

@@ -5,28 +5,33 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from math import isclose, isfinite, pi
 from pathlib import Path
 
-from fmpy.model_description import DefaultExperiment, ModelDescription, ModelVariable, Unit
+from fmpy.model_description import (
+    BaseUnit,
+    DefaultExperiment,
+    ModelDescription,
+    ModelVariable,
+    Unit,
+)
 
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.device.variable import FIRST, Variable
 
-DIMENSIONS: Mapping[str, Mapping[str, int]] = {
-    "1": {},
-    "rad": {},
-    "rad/s": {"s": -1},
-    "kg": {"kg": 1},
-    "m": {"m": 1},
-    "m/s": {"m": 1, "s": -1},
-    "s": {"s": 1},
-    "N": {"kg": 1, "m": 1, "s": -2},
-    "1/m": {"m": -1},
-    "s/m": {"s": 1, "m": -1},
-    "W": {"kg": 1, "m": 2, "s": -3},
+DIMENSIONS: Mapping[str, str] = {
+    "1": "1",
+    "rad": "1",
+    "rad/s": "s^-1",
+    "kg": "kg",
+    "m": "m",
+    "m/s": "m s^-1",
+    "s": "s",
+    "N": "kg m s^-2",
+    "1/m": "m^-1",
+    "s/m": "s m^-1",
+    "W": "kg m^2 s^-3",
 }
-"""Unit of the interface to its exponents of SI base units; to the SI a radian is 1."""
+"""Unit of the interface in SI base units; to the SI a radian is 1."""
 
-_EXPONENTS = ("kg", "m", "s", "A", "K", "mol", "cd")
 _PREFIXES = {"n": 1e9, "u": 1e6, "µ": 1e6, "m": 1e3, "c": 1e2, "d": 1e1, "k": 1e-3, "M": 1e-6}
 _DISPLAYED: Mapping[str, Mapping[str, float]] = {
     "1": {"%": 100.0, "ppm": 1e6},
@@ -48,9 +53,8 @@ def unit_problems(unit: str, definitions: Sequence[Unit]) -> Iterator[str]:
     """
     for definition in (one for one in definitions if one.name == unit):
         if (base := definition.baseUnit) is not None:
-            found = {name: getattr(base, name) for name in _EXPONENTS if getattr(base, name)}
             for what, given, needed in (
-                ("as", _dimension(found), _dimension(DIMENSIONS[unit])),
+                ("as", _dimension(base), DIMENSIONS[unit]),
                 ("with factor", base.factor, 1),
                 ("with offset", base.offset, 0),
             ):
@@ -75,15 +79,13 @@ def _factor(unit: str, display: str) -> float | None:
     return _DISPLAYED.get(unit, {}).get(display)
 
 
-def _dimension(exponents: Mapping[str, int]) -> str:
-    """Return exponents as text, such as "kg m s^-2", those above 0 first."""
-    ordered = sorted(exponents.items(), key=lambda one: one[1] < 0)
-    parts = [name if power == 1 else f"{name}^{power}" for name, power in ordered]
+def _dimension(base: BaseUnit) -> str:
+    """Return the exponents of a unit as text, such as "kg m s^-2", those above 0 first."""
+    exponents = [(name, getattr(base, name)) for name in ("kg", "m", "s", "A", "K", "mol", "cd")]
+    ordered = sorted(exponents, key=lambda one: one[1] < 0)
+    parts = [name if power == 1 else f"{name}^{power}" for name, power in ordered if power]
     return " ".join(parts) or "1"
 
-
-INITIAL: Mapping[str, str] = {"input": "exact", "parameter": "exact", "output": "calculated"}
-"""What `initial` may say where it says anything, by causality."""
 
 INPUTS_AT_START: Mapping[str, Set[str]] = {
     "position": frozenset(),
@@ -231,16 +233,12 @@ def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:
     name = found.name
     if found.variability != variable.variability:
         yield f"{name} is {found.variability}, must be {variable.variability}"
-    initial = INITIAL[variable.causality]
+    initial = "calculated" if variable.causality == "output" else "exact"
     if found.initial not in (None, initial):
         yield f"initial of {name} is {found.initial}, must be {initial}"
-    attributes = {
-        "start": variable.start,
-        "min": variable.minimum,
-        "max": variable.maximum,
-        "nominal": variable.nominal,
-    }
-    for attribute, needed in attributes.items():
+    names = {"start": "start", "min": "minimum", "max": "maximum", "nominal": "nominal"}
+    for attribute, own_name in names.items():
+        needed = getattr(variable, own_name)
         text = _attribute(found, attribute)
         given = None if text is None else float(text)
         is_free = attribute == "nominal" and needed is None

@@ -31,10 +31,6 @@ PROVEN = 1e-8
 """Largest error of the mean velocity, in units of the amplitude of the vibration."""
 NEAR = 1e-3
 """Largest distance from the limit, in units of the vibration: the map is linear to its square."""
-RESTARTS = 4
-"""Further runs, each from the limit of the one before."""
-RANK = 1e-9
-"""Smallest over largest change that counts."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +72,7 @@ def proved_predictions(
         if (candidate := _candidate(instance, quantity, index, point, starts, max_denominator))
     ]
     before: Array | None = None
-    for _ in range(1 + RESTARTS):
+    for _ in range(5):  # each further run begins at the limit of the one before
         runs = np.array([_run(instance, one) for one in left]).reshape(-1, PERIODS + 1, 5)
         good = np.isfinite(runs).all(axis=(1, 2)) & (runs[:, -1, 4] < 1.0)
         left = [one for one, is_good in zip(left, good, strict=True) if is_good]
@@ -184,7 +180,7 @@ def _seen(candidates: Sequence[_Candidate], runs: Array) -> Array:
 def _matrices(seen: Array) -> Array:
     """Return the matrices (n, 4, 3) from a change of state to what a period makes of it."""
     changes = np.swapaxes(np.diff(seen, axis=1), 1, 2)
-    inverse = np.linalg.pinv(changes[:, :3, :-1], rcond=RANK)
+    inverse = np.linalg.pinv(changes[:, :3, :-1], rcond=1e-9)
     return np.asarray(changes[:, :, 1:] @ inverse, dtype=np.float64)
 
 

@@ -76,14 +76,13 @@ def test_every_fact_is_in_every_form_and_hostile_names_are_escaped() -> None:
     assert "fmu" not in provenance_properties(PROVENANCE, None)
 
 
-def test_messages_go_to_the_log_of_their_instance(capsys: pytest.CaptureFixture[str]) -> None:
+def test_messages_go_to_the_log_of_their_instance() -> None:
     one, callbacks = fmu_log.collect("one")
     two, _ = fmu_log.collect("two")
     callbacks.logger(None, b"one", 3, b"", b"mass refused")
     callbacks.logger(None, b"two", 3, b"", "gr\u00f6\u00dfer".encode())
-    callbacks.logger(None, b"three", 3, b"", b"not for the harness")
+    callbacks.logger(None, b"three", 3, b"", b"not for these")
     assert (one, two) == (["mass refused"], ["gr\u00f6\u00dfer"])
-    assert "not for the harness" in capsys.readouterr().out
     fmu_log.forget("one")
     fmu_log.forget("two")
 

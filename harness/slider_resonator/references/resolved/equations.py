@@ -89,43 +89,38 @@ class Equations:
         velocity at every instant, or with a ``width`` in m/s its regularisation
         tanh(velocity / width), or in a state with a bristle (5) that.
         """
-        sin, cos, tanh = math.sin, math.cos, math.tanh
-        load, load_rate = now.load, now.load_rate
         rate, angle_rate = self.drive_frequency, now.frequency_ratio * self.drive_frequency
         half_acceleration = 0.5 * now.ratio_rate * self.drive_frequency
-        coupling_damping, coupling_stiffness = self.coupling_damping, self.coupling_stiffness
-        force_sine, force_cosine = self.force_sine, self.force_cosine
-        base, damping, stiffness = self.base_acceleration, self.damping_rate, self.stiffness_rate
-        mean, amplitude = self.friction_mean, self.friction_amplitude
-        path_rate, path_damping = self.path_rate, self.path_damping
-        inertia = self.inertia
         slides = mode != STICK
         fixed_direction = 0 if mode is None or mode == LIFTED else mode
 
         def slopes(time: float, state: Array) -> list[float]:
             _, velocity, displacement, resonator_velocity, *bristle = state.tolist()
-            sine = sin(theta + rate * time)
-            resonator = base * sine - damping * resonator_velocity - stiffness * displacement
+            sine = math.sin(theta + rate * time)
+            resonator = self.base_acceleration * sine - self.damping_rate * resonator_velocity
+            resonator -= self.stiffness_rate * displacement
             if not slides:
                 return [0.0, 0.0, resonator_velocity, resonator]
             direction: float = fixed_direction
             force = (
-                coupling_damping * resonator_velocity
-                + coupling_stiffness * displacement
-                + force_sine * sine
-                - (load + load_rate * time)
+                self.coupling_damping * resonator_velocity
+                + self.coupling_stiffness * displacement
+                + self.force_sine * sine
+                - (now.load + now.load_rate * time)
             )
-            if force_cosine:
-                force += force_cosine * cos(theta + rate * time)
-            limit = mean + amplitude * sin(angle + (angle_rate + half_acceleration * time) * time)
+            if self.force_cosine:
+                force += self.force_cosine * math.cos(theta + rate * time)
+            turned = (angle_rate + half_acceleration * time) * time
+            limit = self.friction_mean + self.friction_amplitude * math.sin(angle + turned)
             if mode is None:
                 limit = max(0.0, limit)
-                direction = tanh(velocity / width) if width else (velocity > 0.0) - (velocity < 0.0)
+                sign = (velocity > 0.0) - (velocity < 0.0)
+                direction = math.tanh(velocity / width) if width else sign
             if bristle:
-                stretch = path_rate * bristle[0]
+                stretch = self.path_rate * bristle[0]
                 bristle = [velocity - abs(velocity) * stretch]
-                direction = stretch + path_damping * bristle[0]
-            acceleration = (force - direction * limit) / inertia
+                direction = stretch + self.path_damping * bristle[0]
+            acceleration = (force - direction * limit) / self.inertia
             return [velocity, acceleration, resonator_velocity, resonator - acceleration, *bristle]
 
         return slopes
