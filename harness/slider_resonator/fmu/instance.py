@@ -25,8 +25,6 @@ from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.limits import MAX_WRITTEN
 from slider_resonator.fmu.opening import Fmu
 
-EQUAL = 1e-6
-"""Relative difference up to which two communication steps count as equal."""
 LARGEST_INTEGER = 2**31 - 1
 """FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
 
@@ -220,7 +218,7 @@ class Instance:
         if not self.fmu.takes_equal_steps_only:
             return
         steps = np.diff(times, prepend=self.time)
-        if np.ptp(steps) > EQUAL * np.max(steps):
+        if np.ptp(steps) > 1e-6 * np.max(steps):
             raise FmuError(
                 f"{self.fmu.path.name} has canHandleVariableCommunicationStepSize = false, but "
                 f"this needs steps from {np.min(steps):.6g} s to {np.max(steps):.6g} s; must be "

@@ -40,8 +40,6 @@ _DISPLAYED: Mapping[str, Mapping[str, float]] = {
     "kg": {"g": 1e3, "mg": 1e6, "t": 1e-3},
 }
 """Unit to names that it may be displayed in, with the factor; prefixes come on top of these."""
-_ROUNDED = 1e-5
-"""Tolerated relative error of a display factor, which may have been rounded."""
 
 
 def unit_problems(unit: str, definitions: Sequence[Unit]) -> Iterator[str]:
@@ -64,7 +62,7 @@ def unit_problems(unit: str, definitions: Sequence[Unit]) -> Iterator[str]:
             if (factor := _factor(unit, str(display.name))) is None:
                 continue
             where = f"display unit {display.name} of unit {unit} is defined with"
-            if not isclose(display.factor, factor, rel_tol=_ROUNDED):
+            if not isclose(display.factor, factor, rel_tol=1e-5):  # it may be rounded
                 yield f"{where} factor {display.factor!r}, must be {factor:.9g}"
             if display.offset != 0.0:
                 yield f"{where} offset {display.offset!r}, must be 0"

@@ -164,8 +164,6 @@ def _read_description(path: Path) -> ModelDescription:
     if not path.is_file():
         problem = "is a directory; must be an FMU file" if path.is_dir() else "no such file"
         raise FmuError(f"{path}: {problem}")
-    if not zipfile.is_zipfile(path):
-        raise FmuError(f"{path}: not an FMU: it is no zip archive")
     try:
         check_unpacked_size(path)
         with zipfile.ZipFile(path) as archive:
@@ -187,19 +185,14 @@ def _read_description(path: Path) -> ModelDescription:
         return description
     except HarnessError:
         raise
-    except KeyError as error:
-        raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml") from error
     except Exception as error:  # fmpy, lxml and the schema each raise their own
         raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
 
 
 def check_unpacked_size(path: Path) -> None:
-    """Raise FmuError for an archive that unpacks to more than the limits, before it is unpacked.
-
-    A file that is no archive is left to who opens it.
-    """
+    """Raise FmuError for a file that is no zip archive, or that unpacks to more than the limits."""
     if not zipfile.is_zipfile(path):
-        return
+        raise FmuError(f"{path}: must be a zip archive")
     with zipfile.ZipFile(path) as archive:
         entries = archive.infolist()
     size = sum(entry.file_size for entry in entries)

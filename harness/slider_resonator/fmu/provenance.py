@@ -126,19 +126,16 @@ def provenance_properties(provenance: Provenance, fmu: FmuIdentity | None) -> di
 
 
 def _tables(provenance: Provenance) -> list[Table]:
-    """Return a table of the FMUs, if any, and one of tools, machine and date."""
+    """Return a table of the FMUs and one of tools, machine and date."""
     fmus = [
-        (
-            *(Path(one.fmu).name, one.guid or "-", one.version or "-"),
-            *(one.generation_tool or "-", one.sha256 or "-"),
-        )
-        for one in provenance.fmus
+        [text or "-" for text in (Path(f.fmu).name, f.guid, f.version, f.generation_tool, f.sha256)]
+        for f in provenance.fmus
     ]
     tools = (
         *(provenance.date, provenance.harness, provenance.fmpy, provenance.python),
         *(provenance.platform, provenance.cpu),
     )
-    tables = [Table(texts("date", "harness", "fmpy", "Python", "platform", "CPU"), [tools])]
-    if fmus:
-        tables.insert(0, Table(texts("FMU", "GUID", "version", "generation tool", "SHA-256"), fmus))
-    return tables
+    return [
+        Table(texts("FMU", "GUID", "version", "generation tool", "SHA-256"), fmus),
+        Table(texts("date", "harness", "fmpy", "Python", "platform", "CPU"), [tools]),
+    ]

@@ -81,7 +81,7 @@ def test_what_is_no_package_is_reported(closed_loop_package: Path, tmp_path: Pat
     altered(closed_loop_package, old, lambda name, text: None if name == WITH_CONNECTORS else text)
     for package, said in {
         "none.ssp": "none.ssp: no such file",
-        "text.ssp": "text.ssp: no parameter set design can be read",
+        "text.ssp": "text.ssp: must be a zip archive",
         "old.ssp": f"old.ssp: has no {WITH_CONNECTORS}",
     }.items():
         told = refused("closed-loop", tmp_path / package, "--out", tmp_path)

@@ -1,4 +1,5 @@
 import json
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -20,10 +21,10 @@ def others(python_fmu: Path, native_3_fmu: Path) -> Arguments:
 
 def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(others: Arguments, tmp_path: Path) -> None:
     broken = tmp_path / "broken.fmu"
-    broken.write_bytes(b"no zip")
+    zipfile.ZipFile(broken, "w").close()
     done = call("hosts", broken, *others, "--host", "fmpy")
     assert done.exit_code == 2
-    assert f"{broken}: does not run in fmpy: BadZipFile" in done.stderr
+    assert f"{broken}: does not run in fmpy: KeyError" in done.stderr
 
 
 def test_a_host_that_fails_is_a_verdict(

@@ -71,7 +71,7 @@ def main() -> None:
 def _run(instance: Instance | None, request: Request, answers: BinaryIO) -> Outcome:
     task, reports_progress = request
     if reports_progress:
-        task = partial(task, progress=lambda *done: _send(answers, Done(*done)))
+        task = partial(task, progress=lambda *done: _send(answers, done))
     try:
         return Outcome(task(instance))
     except HarnessError as error:

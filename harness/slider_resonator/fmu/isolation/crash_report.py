@@ -28,7 +28,6 @@ _CALLS: Mapping[str, str] = {
 
 _FRAME = re.compile(r'File ".*[\\/]fmu[\\/]instance\.py", line \d+ in (\w+)')
 _FRAME_3 = re.compile(r'File ".*[\\/](?:fmu[\\/]fmi3_slave|fmpy[\\/]fmi3)\.py", line')
-_LIMIT_MISSED = "Timeout ("
 
 
 def crash_report(
@@ -53,7 +52,7 @@ def crash_report(
         report = (
             f"{fmu} was ended: it had {ending.processes} processes; must be at most {MAX_PROCESSES}"
         )
-    elif ending.code is None or (ending.code != 0 and _LIMIT_MISSED in trace):
+    elif ending.code is None or (ending.code != 0 and "Timeout (" in trace):
         # While it writes the traceback of a thread that goes on it may crash.
         report = f"no answer within the time limit of {limit:g} s{where}: {fmu} was ended"
     else:

@@ -32,8 +32,6 @@ Before the limit begins, Python and the modules of a task are loaded, also on a 
 """
 POLL_INTERVAL = 0.5
 """Interval (s) at which the process is polled."""
-MAX_READ = 2**16
-"""Bytes that are read of the end of what an FMU has printed."""
 
 Task = Callable[..., Any]
 """A picklable function, called as `task(instance)` in the process of the FMU; one that reports
@@ -41,14 +39,8 @@ progress, as `task(instance, progress=report)`, where `report(label, share)` sen
 the share done."""
 Request = tuple[Task, bool]
 """A task, and whether it reports progress; sent pickled, as is the answer."""
-
-
-@dataclass(frozen=True)
-class Done:
-    """What the present task does, empty where that has no name, and its share done, 0 to 1."""
-
-    label: str
-    share: float
+Done = tuple[str, float]
+"""What the present task does, empty where that has no name, and its share done, 0 to 1."""
 
 
 @dataclass(frozen=True)
@@ -165,7 +157,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
             if isinstance(message, Outcome):
                 return message
             if progress is not None:
-                progress(message.label, message.share)
+                progress(*message)
         raise FmuDied("the process of the FMU has been stopped")
 
     def close(self) -> None:
@@ -203,12 +195,11 @@ def _send(requests: IO[bytes], content: bytes) -> None:
 
 def _last(file: Path) -> str:
     """Return the last part of a file, empty where there is none."""
-    try:
-        with file.open("rb") as opened:
-            opened.seek(max(0, file.stat().st_size - MAX_READ))
-            return opened.read(MAX_READ).decode("utf-8", errors="replace")
-    except OSError:
-        return ""
+    most = 2**16
+    with suppress(OSError), file.open("rb") as opened:
+        opened.seek(max(0, file.stat().st_size - most))
+        return opened.read(most).decode("utf-8", errors="replace")
+    return ""
 
 
 def _collect(file: IO[bytes], received: "queue.SimpleQueue[Done | Outcome | None]") -> None:
@@ -219,7 +210,7 @@ def _collect(file: IO[bytes], received: "queue.SimpleQueue[Done | Outcome | None
                 message = pickle.load(file)
             except Exception:  # an FMU that writes into the pipe makes pickle raise anything
                 break
-            if not isinstance(message, Done | Outcome):
+            if not isinstance(message, tuple | Outcome):
                 break
             received.put(message)
     received.put(None)

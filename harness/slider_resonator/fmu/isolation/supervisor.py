@@ -25,12 +25,8 @@ LINUX = sys.platform == "linux"
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 POLL_INTERVAL = 0.1
 """Interval (s) at which the memory of the program itself is read."""
-TREE_INTERVAL = 1.0
-"""Interval (s) at which all that it has started is counted, and its memory read."""
 MAX_PROCESSES = 250
 """Largest number of processes, the program among them."""
-MAX_ENDING = 60.0
-"""Longest time (s) to wait for killed processes: many take their time on a busy machine."""
 
 
 def main() -> None:
@@ -96,7 +92,7 @@ def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -
                 return {"processes": len(processes)}
             if len(processes) > 1:
                 memory = max(memory, sum(map(_share, processes)))
-            next_count = time.monotonic() + TREE_INTERVAL
+            next_count = time.monotonic() + 1.0
         if memory > max_memory:
             return {"memory": memory}
 
@@ -115,7 +111,7 @@ def _reaped() -> list[tuple[int, int]]:
 
 def _end_all(program: int) -> None:
     """Kill the program's group, then whatever becomes a child of this process."""
-    deadline = time.monotonic() + MAX_ENDING
+    deadline = time.monotonic() + 60.0  # many take their time on a busy machine
     while time.monotonic() < deadline:
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(program, signal.SIGKILL)

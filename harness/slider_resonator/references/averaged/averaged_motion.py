@@ -33,12 +33,6 @@ MAX_DETUNING = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. For a
 load that repeats after several turns: of turns times the ratio, times the turns."""
 
-STEPS_PER_BEAT = 32
-"""Smallest number of integrator steps while the phase of the normal load drifts by a turn."""
-
-STEPS_PER_PASSAGE = 8
-"""Smallest number of integrator steps while V passes from one grazing velocity to the other."""
-
 
 @dataclass(frozen=True)
 class AveragedMotion:
@@ -183,9 +177,9 @@ def _slow_motion(
 
     ends = (inputs.frequency_ratio, inputs.later(span).frequency_ratio)
     drift = max(abs(end - ratio) for end in ends) * frequency * max(turns, 1)
-    max_step = 2.0 * math.pi / (STEPS_PER_BEAT * drift) if drift else math.inf
+    max_step = 2.0 * math.pi / (32 * drift) if drift else math.inf
     if inputs.load_rate:
-        max_step = min(max_step, _passage(device, inputs, fast) / STEPS_PER_PASSAGE)
+        max_step = min(max_step, _passage(device, inputs, fast) / 8)
     moved, slow = slow_trajectory(acceleration, times, velocity / fast, max_step)
     return fast * moved, fast * slow
 

@@ -16,8 +16,6 @@ from slider_resonator.references.equivalent_force import (
 
 _SAMPLES = 65
 """Velocities between which equilibria are searched."""
-_ROUNDING = 1e-12
-"""Rounding error of a mean friction, as a share of the largest."""
 
 
 def mean_friction(
@@ -118,7 +116,7 @@ def stable_velocity(friction: Callable[[float], float], strength: float, load: f
             f"load = {load!r} is balanced at no velocity: friction lies between "
             f"{min(values) - load!r} and {max(values) - load!r}, a greater load runs away"
         )
-    forward = friction(0.0) <= _ROUNDING * max(map(abs, values))
+    forward = friction(0.0) <= 1e-12 * max(map(abs, values))  # to rounding
     return max(found) if forward else min(found)
 
 

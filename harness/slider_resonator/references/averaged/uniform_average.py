@@ -21,11 +21,6 @@ from slider_resonator.references.averaged.vibrating_contact import (
 )
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
-_MIN_GRADED_PANELS, _MAX_GRADED_PANELS = 3, 30
-"""Panels halve toward the reversal, where a stiff bristle turns over within a small angle."""
-
-_WIDEST_PANEL = 2.0
-"""Width in rad of the angle of the normal load: 24 nodes then integrate its sine to rounding."""
 
 
 @dataclass(frozen=True)
@@ -98,11 +93,10 @@ def _arc(
     """
     start, _ = arc
     q, mu = case.strength, case.friction_coefficient
-    # In the smallest panel the bristle relaxes by less than e.
+    # Panels halve toward the reversal: in the smallest one the bristle relaxes by less than e.
     path = rate * (abs(velocity) + q) * (arc[1] - start)
-    halvings = math.ceil(math.log2(max(path, 1.0)))
-    graded = min(max(halvings, _MIN_GRADED_PANELS), _MAX_GRADED_PANELS)
-    past, weights = _nodes(arc, case, ratio, graded)
+    halvings = min(max(math.ceil(math.log2(max(path, 1.0))), 3), 30)
+    past, weights = _nodes(arc, case, ratio, halvings)
     # The difference of sines as a product keeps its digits next to the reversal.
     slid = velocity * past - 2.0 * q * np.cos(start + 0.5 * past) * np.sin(0.5 * past)
     speed = velocity - q * np.cos(start + past)
@@ -121,7 +115,8 @@ def _nodes(
     """
     start, end = arc
     width = end - start
-    even = 1 + math.ceil(abs(ratio) * width / _WIDEST_PANEL)
+    # On 2 rad of the angle of the load the nodes integrate its sine to rounding.
+    even = 1 + math.ceil(abs(ratio) * width / 2.0)
     spans = closed_spans(start, end, case.amplitude_ratio, case.phase, ratio)
     if spans == [arc]:
         unit_nodes, unit_weights = _unit_nodes(halvings, even)

@@ -12,11 +12,6 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 
-_HALVINGS = 40
-_ITERATIONS = 100
-_LAST_STEP = 1e-12
-"""Step of Newton's method after which the root is known to rounding: the error is its square."""
-
 
 def first_fall(terms: Array, noise: float) -> float | None:
     """Return the first share in ``[0, 1]`` at which a polynomial turns negative, None if never.
@@ -34,7 +29,7 @@ def first_fall(terms: Array, noise: float) -> float | None:
         return 0.0
     to_bernstein, _ = _matrices(len(deflated) - 1)
     bernstein = to_bernstein @ deflated
-    bracket = _first_bracket(bernstein, 0.0, 1.0, noise, _HALVINGS)
+    bracket = _first_bracket(bernstein, 0.0, 1.0, noise, 40)
     return None if bracket is None else _root(deflated[::-1].tolist(), *bracket)
 
 
@@ -71,7 +66,7 @@ def _root(descending: list[float], left: float, right: float) -> float:
     A step that leaves the bracket halves it instead.
     """
     share = 0.5 * (left + right)
-    for _ in range(_ITERATIONS):
+    for _ in range(100):
         value = slope = 0.0
         for coefficient in descending:
             slope = slope * share + value
@@ -83,6 +78,6 @@ def _root(descending: list[float], left: float, right: float) -> float:
         before, share = share, share - value / slope if slope else left
         if not left <= share <= right:
             share = 0.5 * (left + right)
-        if abs(share - before) <= _LAST_STEP:
+        if abs(share - before) <= 1e-12:  # the error is its square
             break
     return share

@@ -22,8 +22,6 @@ from slider_resonator.references.resolved.taylor_series import (
 )
 from slider_resonator.references.resolved.trajectory import Trajectory
 
-_TRUNCATION = 1e-16
-"""Largest last term of a series in a step, as a share of its first one."""
 _NOISE = 2e-15
 """Rounding error of a sum, as a share of its largest term."""
 
@@ -93,13 +91,13 @@ def follow_series(segment: Segment) -> SegmentResult:
 
 
 def _step_of(series: MotionSeries) -> float:
-    """Return the step (rad) with negligible last terms of velocity and stretch."""
+    """Return the step (rad) in which the last terms of velocity and stretch are negligible."""
     steps = [LONGEST]
     for row in (series.states[1], series.states[4]):
         first = next((order for order, term in enumerate(row) if term), ORDER)
         for order in (ORDER - 1, ORDER):
             if order > first and row[order]:
-                share = _TRUNCATION * abs(row[first] / row[order])
+                share = 1e-16 * abs(row[first] / row[order])
                 steps.append(share ** (1.0 / (order - first)))
     return min(steps)
 

@@ -21,8 +21,6 @@ from slider_resonator.references.resolved.mode_sequence import Segment
 ORDER = 24
 """Order of the series: over `LONGEST` rad of the fastest rate the rest is below rounding."""
 LONGEST = 2.4
-_FORGOTTEN = 1e-15
-"""Shortfall of a stretch from that of steady sliding that is rounding."""
 _INVERSE_FACTORIALS = [1.0 / factorial(order) for order in range(ORDER + 1)]
 
 Series = list[float]
@@ -71,7 +69,7 @@ def motion_series(
     way, velocity, displacement, rate = ([state] for state in states[:4])
     stretch = states[4:]
     shortfall = [direction - stretch[0]] if stretch else [0.0]
-    bends = abs(shortfall[0]) > _FORGOTTEN
+    bends = abs(shortfall[0]) > 1e-15  # more than rounding
     if stretch and not bends:
         stretch = [float(direction), *[0.0] * ORDER]
     slides, closed = mode != STICK, mode not in (STICK, LIFTED)
