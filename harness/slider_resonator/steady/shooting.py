@@ -74,18 +74,18 @@ def fixed_point(
     def change(state: Array) -> Array:
         return period_map(state)[0] - state
 
-    root = solve(change, guess, scale, tolerance=tolerance)
-    jacobian = central_jacobian(change, root.x, scale)
+    state, iterations, residual = solve(change, guess, scale, tolerance=tolerance)
+    jacobian = central_jacobian(change, state, scale)
     multipliers = _multipliers(jacobian)
-    sides = _one_sided_multipliers(change, root.x, jacobian, scale)
+    sides = _one_sided_multipliers(change, state, jacobian, scale)
     if sides is not None:
         error = max(NEUTRAL, tolerance / DISTANCE)
         if min(abs(side - 1.0) for side in sides) <= error:
-            raise NoPeriodicMotion("not_unique", A_FAMILY, root.iterations, root.residual)
+            raise NoPeriodicMotion("not_unique", A_FAMILY, iterations, residual)
         if abs(sides[0] - sides[1]) > 0.1 * abs(1.0 - multipliers[0]):  # a kink
             multipliers[0] = max(sides, key=abs)
-    _, displacement = period_map(root.x)
-    return FixedPoint(root.x, displacement, root.iterations, root.residual, multipliers)
+    _, displacement = period_map(state)
+    return FixedPoint(state, displacement, iterations, residual, multipliers)
 
 
 def _multipliers(change_jacobian: Array) -> NDArray[np.complex128]:
@@ -232,8 +232,9 @@ def blocked_point(
         end, displacement = run(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)
 
-    root = solve(change, np.append(guess, load), scale, tolerance=run.tolerance)
-    multipliers = _multipliers(central_jacobian(change, root.x, scale)[:-1, :-1])
-    state, load = root.x[:-1], float(root.x[-1])
+    start = np.append(guess, load)
+    found, iterations, residual = solve(change, start, scale, tolerance=run.tolerance)
+    multipliers = _multipliers(central_jacobian(change, found, scale)[:-1, :-1])
+    state, load = found[:-1], float(found[-1])
     _, displacement = run(state, load)
-    return load, FixedPoint(state, displacement, root.iterations, root.residual, multipliers)
+    return load, FixedPoint(state, displacement, iterations, residual, multipliers)

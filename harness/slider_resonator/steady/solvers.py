@@ -46,15 +46,6 @@ class NoPeriodicMotion(Exception):
     residual: float | None = None
 
 
-@dataclass(frozen=True)
-class Root:
-    """A zero `x` (n,); `residual` is the largest function value left, in units of the scale."""
-
-    x: Array
-    iterations: int
-    residual: float
-
-
 def central_jacobian(function: Callable[[Array], Array], x: Array, scale: Array) -> Array:
     """Return the Jacobian (n, n) at `x` by central differences; `scale` (n,) is that of `x`.
 
@@ -67,11 +58,12 @@ def central_jacobian(function: Callable[[Array], Array], x: Array, scale: Array)
 
 def solve(
     function: Callable[[Array], Array], guess: Array, scale: Array, *, tolerance: float = 1e-11
-) -> Root:
+) -> tuple[Array, int, float]:
     """Find a zero of `function`, (n,) -> (n,) and finite, the change of a state over a period.
 
-    The search starts at `guess` (n,). `scale` (n,) is the typical size of each unknown and of the
-    function value beside it; `tolerance` bounds the last correction, in units of it. Raises
+    Return it with the number of iterations and the largest function value left, in units of the
+    scale. The search starts at `guess` (n,). `scale` (n,) is the typical size of each unknown and
+    of the function value beside it; `tolerance` bounds the last correction, in units of it. Raises
     NoPeriodicMotion where there is no zero, or none can be singled out. With a singular Jacobian
     some more steps are taken in the directions that it determines: a residual that vanishes then
     shows a family of zeros, one that remains shows that there is none.
@@ -104,7 +96,7 @@ def solve(
         correction = -inverse @ value
         size = float(np.linalg.norm(correction))
         if size <= tolerance:
-            return Root(y * scale, iterations, residual())
+            return y * scale, iterations, residual()
         if iterations == 60:
             raise unconverged("out of iterations")
         iterations += 1
@@ -116,7 +108,7 @@ def solve(
                 y, value = trial, trial_value
                 break
             if size <= 100.0 * tolerance:  # it no longer decreases, by rounding
-                return Root(y * scale, iterations, residual())
+                return y * scale, iterations, residual()
         else:  # a new Jacobian may bring it closer, or rounding alone is left
             if not is_kept and residual() > 1e-7 * size:
                 raise unconverged("no step brings it closer")
@@ -149,7 +141,7 @@ def bracketed_state(period_map: PeriodMap, guess: Array, scale: Array) -> Array 
         """Return the change of entry 0; leaves in `state` the state that it belongs to."""
         state[0] = slow
         if len(state) > 1:
-            state[1:] = solve(fast_change, state[1:], scale[1:], tolerance=1e-14).x
+            state[1:] = solve(fast_change, state[1:], scale[1:], tolerance=1e-14)[0]
         return float(period_map(state)[0][0]) - slow
 
     try:

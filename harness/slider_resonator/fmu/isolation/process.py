@@ -144,7 +144,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         """
         deadline = monotonic() + self.time_limit + GRACE
         while not self._stop.is_set():
-            ended = self._process.poll()
+            ended = self._process.wait(0.0)
             left = deadline - monotonic()
             try:
                 message = self._messages.get(timeout=max(0.0, min(POLL_INTERVAL, left)))

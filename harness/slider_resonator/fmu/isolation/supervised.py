@@ -64,15 +64,11 @@ class Supervised:
                 **streams,
             )
 
-    def poll(self) -> bool:
-        """Whether the program has ended, and all that it started with it."""
-        return self.process.poll() is not None
-
     def wait(self, seconds: float) -> bool:
-        """Wait for the program's end; return whether it has come."""
+        """Wait for the end of the program and of all that it started; return whether it came."""
         with suppress(subprocess.TimeoutExpired):
             self.process.wait(seconds)
-        return self.poll()
+        return self.process.poll() is not None
 
     def end(self) -> Ending:
         """End the program and all that it started, if it still runs, and return how it ended."""

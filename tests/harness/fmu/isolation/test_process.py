@@ -90,7 +90,7 @@ def test_process_without_listener_is_ended(
     monkeypatch.setattr("threading.Thread", refuse)
     with pytest.raises(RuntimeError, match="new thread"):
         IsolatedFmu(native_fmu, 60.0)
-    assert started[0].poll()
+    assert started[0].wait(0.0)
     assert not list(temporary.iterdir())
 
 
