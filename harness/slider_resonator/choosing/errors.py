@@ -13,7 +13,7 @@ from slider_resonator.fmu.run import Record
 from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.needs import AllowedTable
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.steady.periodic import SLOW
+from slider_resonator.steady.searches import SLOW
 
 ROUNDING = {0: 1e-12, 1: 1e-10}
 """Error of the resolved run itself, by friction law, as a share of the magnitude."""

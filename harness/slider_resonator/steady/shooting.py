@@ -65,11 +65,7 @@ class FixedPoint:
 def fixed_point(
     period_map: PeriodMap, guess: Array, scale: Array, tolerance: float = TOLERANCE
 ) -> FixedPoint:
-    """Find a state that the map returns to, starting from `guess` (n,).
-
-    `scale` (n,) is the typical size of each entry of the state and `tolerance` is in units
-    of it. Raises NoPeriodicMotion where there is none.
-    """
+    """Find a state that the map returns to, starting from `guess` (n,); else as `solve` does."""
 
     def change(state: Array) -> Array:
         return period_map(state)[0] - state
@@ -101,12 +97,10 @@ def _one_sided_multipliers(
     """Return the slowest multiplier below and above the zero `x` (n,) of `change`.
 
     Where sliding reverses in flight, neighbouring motions may have the same friction and repeat,
-    too. Such a family ends in a kink of the period map, across which a central difference is
-    meaningless. So one neighbour is followed on each side: at a given distance in the slowest
-    direction, and periodic in all others.
-
-    `jacobian` (n, n) is that of `change` at `x`. None where the slowest departure oscillates, or
-    two directions are equally slow.
+    too. Such a family ends in a kink of the period map, across which the central `jacobian` (n, n)
+    is meaningless. So one neighbour is followed on each side: at a given distance in the slowest
+    direction, and periodic in all others. None where the slowest departure oscillates, or two
+    directions are equally slow.
     """
     scaled = jacobian * scale[None, :] / scale[:, None]
     values, right = np.linalg.eig(scaled)

@@ -11,9 +11,14 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import device_average
 from slider_resonator.references.averaged.uniform_average import LugreCase
-from slider_resonator.steady.periodic import FIRM, FmuPeriodMap, repeating_periods
 from slider_resonator.steady.reference_steady import ReferenceMotion
-from slider_resonator.steady.searches import find_blocking, find_steady
+from slider_resonator.steady.searches import (
+    FIRM,
+    FmuPeriodMap,
+    find_blocking,
+    find_steady,
+    repeating_periods,
+)
 from slider_resonator.steady.shooting import blocked_point
 from slider_resonator.steady.solvers import NoPeriodicMotion
 from studies.paper.mapping import lugre_case, stiffness_of

@@ -147,11 +147,8 @@ def run_all_tasks(
     """Run a task for each item, however many crash; yield item and outcome, in this order.
 
     A deque of `tasks` is emptied, and may get more of them while outcomes are taken. Items that are
-    left out by then are not run. Raises FmuError when the FMU cannot be opened.
-
-    The first task shows whether it can; from then on there are `QUEUED` tasks for each process. The
-    outcomes do not depend on their number, for an FMU in which each run is independent of those
-    before.
+    left out by then are not run. Raises FmuError when the FMU cannot be opened: the first task
+    shows it; from then on there are `QUEUED` tasks for each process.
     """
     waiting = tasks if isinstance(tasks, deque) else deque(tasks)
     submitted: deque[tuple[Item, Future[Outcome]]] = deque()

@@ -39,8 +39,8 @@ class AveragedMotion:
     """Averaged motion at ``time``: arrays of shape (n,), SI units.
 
     ``mean_velocity`` is the slow velocity; ``position`` and ``velocity`` carry the fast motion.
-    ``contact_mode`` is 2 in flight, else the sign of the velocity. A sample on a boundary between
-    inputs belongs to the inputs before it. ``frictions`` give the friction at each sample.
+    ``contact_mode`` is 2 in flight, else the sign of the velocity. ``frictions`` give the friction
+    at each sample.
     """
 
     time: Array
@@ -60,12 +60,9 @@ class AveragedMotion:
 
 
 def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
-    """Return the averaged motion under held inputs at ``times`` (shape (n,), s).
+    """Return the averaged motion under held inputs at ``times`` (s), as `simulate` takes them.
 
-    ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
-    start. All inputs may have rates, load and ratio only under vibration.
-
-    The initial values determine the momentum and the centre of mass of slider and resonator;
+    All inputs may have rates, load and ratio only under vibration. The initial values determine the momentum and the centre of mass of slider and resonator;
     directly after the start the fast motion is the steady vibration, whatever they are. Without
     vibration the motion is that of a block under dry friction. Where a run tunes the drive,
     momentum and centre are continuous; the slow velocity jumps with the drive's part of them.
