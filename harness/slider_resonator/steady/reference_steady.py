@@ -12,8 +12,13 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.steady.shooting import STATE, PeriodicRun, blocked_point, steady_point
-from slider_resonator.steady.solvers import NoPeriodicMotion
+from slider_resonator.steady.shooting import (
+    STATE,
+    NoPeriodicMotion,
+    PeriodicRun,
+    blocked_point,
+    steady_point,
+)
 
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))
 

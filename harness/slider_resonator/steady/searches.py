@@ -18,11 +18,11 @@ from slider_resonator.output.shown import Shown
 from slider_resonator.steady.shooting import (
     STATE,
     FixedPoint,
+    NoPeriodicMotion,
     PeriodicRun,
     blocked_point,
     steady_point,
 )
-from slider_resonator.steady.solvers import NoPeriodicMotion
 
 Result = TypeVar("Result", bound="SearchResult")
 

@@ -19,8 +19,7 @@ from slider_resonator.steady.searches import (
     find_steady,
     repeating_periods,
 )
-from slider_resonator.steady.shooting import blocked_point
-from slider_resonator.steady.solvers import NoPeriodicMotion
+from slider_resonator.steady.shooting import NoPeriodicMotion, blocked_point
 from studies.paper.mapping import lugre_case, stiffness_of
 
 Values = dict[str, float]

@@ -62,10 +62,11 @@ class AveragedMotion:
 def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
     """Return the averaged motion under held inputs at ``times`` (s), as `simulate` takes them.
 
-    All inputs may have rates, load and ratio only under vibration. The initial values determine the momentum and the centre of mass of slider and resonator;
-    directly after the start the fast motion is the steady vibration, whatever they are. Without
-    vibration the motion is that of a block under dry friction. Where a run tunes the drive,
-    momentum and centre are continuous; the slow velocity jumps with the drive's part of them.
+    All inputs may have rates, load and ratio only under vibration. The initial values determine the
+    momentum and the centre of mass of slider and resonator; directly after the start the fast
+    motion is the steady vibration, whatever they are. Without vibration the motion is that of a
+    block under dry friction. Where a run tunes the drive, momentum and centre are continuous; the
+    slow velocity jumps with the drive's part of them.
 
     Raises ValueError as `fast_motion` does, RuntimeError when the slow motion cannot be integrated.
     """

@@ -8,8 +8,16 @@ import pytest
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.steady.shooting import PeriodicRun, blocked_point, fixed_point, steady_point
-from slider_resonator.steady.solvers import NoPeriodicMotion, PeriodMap, bracketed_state, solve
+from slider_resonator.steady.shooting import (
+    NoPeriodicMotion,
+    PeriodicRun,
+    PeriodMap,
+    blocked_point,
+    bracketed_state,
+    fixed_point,
+    solve,
+    steady_point,
+)
 
 
 @pytest.mark.parametrize("scales", [(1.0, 1.0), (1e-6, 1e3)])
