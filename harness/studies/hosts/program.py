@@ -34,6 +34,6 @@ def run_program(
             in_time = program.wait(time_limit)
         finally:
             ending = program.end()
-    if ending.memory is not None:
-        return f"had {ending.memory >> 20} MiB in memory, too many, and was ended"
+    if ending.excess:
+        return f"was ended: it had {ending.excess}"
     return f"ended with {ending.code}" if in_time else f"was ended after {time_limit:g} s"

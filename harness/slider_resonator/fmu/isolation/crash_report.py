@@ -7,8 +7,6 @@ from contextlib import suppress
 
 from slider_resonator.fmu.fmi3_slave import in_fmi_3
 from slider_resonator.fmu.isolation.supervised import Ending
-from slider_resonator.fmu.isolation.supervisor import MAX_PROCESSES
-from slider_resonator.fmu.limits import MEMORY, max_bytes
 
 MAX_PRINTED = 500
 """Maximum characters of the FMU's own output in the report."""
@@ -43,15 +41,8 @@ def crash_report(
         call = in_fmi_3(call)
     where = f" in {call}" if call else ""
     over_limit = True
-    if ending.memory is not None:
-        report = (
-            f"{fmu} was ended: it had {ending.memory >> 20} MiB in memory; must be at most "
-            f"{max_bytes(MEMORY) >> 20} MiB (--max-memory)"
-        )
-    elif ending.processes is not None:
-        report = (
-            f"{fmu} was ended: it had {ending.processes} processes; must be at most {MAX_PROCESSES}"
-        )
+    if ending.excess:
+        report = f"{fmu} was ended: it had {ending.excess}"
     elif ending.code is None or (ending.code != 0 and "Timeout (" in trace):
         # While it writes the traceback of a thread that goes on it may crash.
         report = f"no answer within the time limit of {limit:g} s{where}: {fmu} was ended"

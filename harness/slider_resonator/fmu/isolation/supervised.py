@@ -24,12 +24,11 @@ MAX_ENDING = 90.0
 class Ending:
     """How a program ended: exit code, or minus the number of the signal; None where it is unknown.
 
-    `memory` (bytes) and the number of `processes` are what it had where that was above the limit.
+    `excess` says what it had where that was above a limit.
     """
 
     code: int | None = None
-    memory: int | None = None
-    processes: int | None = None
+    excess: str = ""
 
 
 class Supervised:

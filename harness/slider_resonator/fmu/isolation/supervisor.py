@@ -73,8 +73,10 @@ def _start(command: Sequence[str], control: socket.socket, closed: Sequence[int]
         os._exit(127)
 
 
-def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -> dict[str, int]:
-    """Return the program's exit `code` once it ends, or what is too much: `memory`, `processes`."""
+def _watch(
+    program: int, control: socket.socket, wakeup: int, max_memory: int
+) -> dict[str, int | str]:
+    """Return the program's exit `code` once it ends, or its `excess` over a limit."""
     next_count = time.monotonic()
     while True:
         readable, _, _ = select.select([control.fileno(), wakeup], [], [], POLL_INTERVAL)
@@ -89,12 +91,13 @@ def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -
         if time.monotonic() >= next_count:
             processes = _descendants()
             if len(processes) > MAX_PROCESSES:
-                return {"processes": len(processes)}
+                return {"excess": f"{len(processes)} processes; must be at most {MAX_PROCESSES}"}
             if len(processes) > 1:
                 memory = max(memory, sum(map(_share, processes)))
             next_count = time.monotonic() + 1.0
         if memory > max_memory:
-            return {"memory": memory}
+            most = f"must be at most {max_memory >> 20} MiB (--max-memory)"
+            return {"excess": f"{memory >> 20} MiB in memory; {most}"}
 
 
 def _reaped() -> list[tuple[int, int]]:
