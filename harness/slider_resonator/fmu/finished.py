@@ -17,8 +17,6 @@ FMUS: dict[Build, str] = {
 _PACKAGE = Path(__file__).resolve().parents[1]
 FOLDERS = (_PACKAGE / "finished", _PACKAGE.parents[1] / "dist")
 """Of an installed package; of a checkout."""
-
-
 COMMANDS_LOOK_IN = (Path("dist"), *FOLDERS)
 """A command takes what has been built in the present folder first."""
 

@@ -67,10 +67,7 @@ def collect(instance_name: str) -> tuple[list[str], fmi2CallbackFunctions]:
     """Return the list that the messages of this instance go to, and the callbacks for fmpy."""
     messages: list[str] = []
     _collectors[instance_name.encode()] = messages
-    callbacks = fmi2CallbackFunctions()
-    callbacks.logger = _logger
-    callbacks.allocateMemory = _allocate
-    callbacks.freeMemory = _free
+    callbacks = fmi2CallbackFunctions(logger=_logger, allocateMemory=_allocate, freeMemory=_free)
     addLoggerProxy(byref(callbacks))
     return messages, callbacks
 

@@ -87,9 +87,6 @@ class Instance:
     """
 
     slave: FMU2Slave | Fmi3Slave
-    messages: list[str]
-    inputs: Block
-    warned: str
 
     def __init__(self, fmu: Fmu) -> None:
         self.fmu = fmu

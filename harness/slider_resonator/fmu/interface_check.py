@@ -86,12 +86,10 @@ def _dimension(base: BaseUnit) -> str:
 
 
 INPUTS_AT_START: Mapping[str, Set[str]] = {
-    "position": frozenset(),
-    "velocity": frozenset(DEVIATIONS),
-    "normal_force": frozenset({"phase"}),
-    "reversals": frozenset(),
-    "last_event_time": frozenset(),
-    "blocking_force": frozenset({"phase", "frequency_ratio", *DEVIATIONS}),
+    **dict.fromkeys(("position", "reversals", "last_event_time"), frozenset()),
+    "velocity": {*DEVIATIONS},
+    "normal_force": {"phase"},
+    "blocking_force": {"phase", "frequency_ratio", *DEVIATIONS},
 }
 """Inputs on which some outputs may depend at the start; any other makes a false algebraic loop."""
 

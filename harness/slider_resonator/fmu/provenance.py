@@ -131,10 +131,8 @@ def _tables(provenance: Provenance) -> list[Table]:
         [text or "-" for text in (Path(f.fmu).name, f.guid, f.version, f.generation_tool, f.sha256)]
         for f in provenance.fmus
     ]
-    tools = (
-        *(provenance.date, provenance.harness, provenance.fmpy, provenance.python),
-        *(provenance.platform, provenance.cpu),
-    )
+    names = ("date", "harness", "fmpy", "python", "platform", "cpu")
+    tools = [getattr(provenance, name) for name in names]
     return [
         Table(texts("FMU", "GUID", "version", "generation tool", "SHA-256"), fmus),
         Table(texts("date", "harness", "fmpy", "Python", "platform", "CPU"), [tools]),

@@ -137,7 +137,7 @@ class FmuPeriodMap(PeriodicRun):
 class SearchResult(Shown):
     """Status, reason and cost of a search.
 
-    What is `searched` is a field, in `unit`; `settled` is the status where it is found and stable.
+    What is `searched` is a field; `settled` is the status where it is found and stable.
     `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
     `prediction_valid` what the FMU says of it, None where it has no such output. `inputs` are those
     that were held, in SI units, deviations only where not 0, with friction on `friction_faces`.
@@ -147,7 +147,6 @@ class SearchResult(Shown):
     """
 
     searched: ClassVar[str]
-    unit: ClassVar[str]
     settled: ClassVar[str]
     held: ClassVar[Sequence[str]] = tuple(INPUTS)
     status: str
@@ -171,8 +170,8 @@ class SearchResult(Shown):
 
     def describe(self) -> list[str]:
         """Return the answer, why it is one, and what it cost."""
-        what, unit, value = self.searched.replace("_", " "), self.unit, self.value
-        found = "none" if value is None else f"{readable(value, 10)} {unit}"
+        what, unit = self.searched.replace("_", " "), VARIABLES[self.searched].unit
+        found = "none" if self.value is None else f"{readable(self.value, 10)} {unit}"
         how = "read without a run"
         if self.prediction_valid is False:
             how += "; the FMU says that it does not hold here: prediction_valid = 0"
@@ -211,7 +210,7 @@ class SteadyMotion(SearchResult):
     no_common_period, no_fixed_point, not_unique or not_converged.
     """
 
-    searched, unit, settled = "steady_velocity", "m/s", "steady"
+    searched, settled = "steady_velocity", "steady"
     steady_velocity: float | None = None
     state: Mapping[str, float] = field(default_factory=dict)
 
@@ -268,7 +267,7 @@ class Blocking(SearchResult):
     no_fixed_point, not_unique or not_converged.
     """
 
-    searched, unit, settled = "blocking_force", "N", "blocked"
+    searched, settled = "blocking_force", "blocked"
     held = ("phase", "frequency_ratio")
     blocking_force: float | None = None
 

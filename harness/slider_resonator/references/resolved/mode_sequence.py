@@ -207,9 +207,8 @@ class ModeSequence:
         return now
 
     def _guard_progress(self, duration: float, time: float) -> None:
-        resolution = math.ulp(1.0) / self._equations.drive_frequency
-        here = self._events_at_this_instant
-        self._events_at_this_instant = here + 1 if duration <= resolution else 0
+        is_here = duration <= math.ulp(1.0) / self._equations.drive_frequency
+        self._events_at_this_instant = self._events_at_this_instant + 1 if is_here else 0
         if self._events_at_this_instant > _MAX_EVENTS_AT_ONE_INSTANT:
             raise RuntimeError(
                 f"contact at t = {time!r} s changes mode more than {_MAX_EVENTS_AT_ONE_INSTANT} "
