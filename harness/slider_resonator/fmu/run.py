@@ -103,10 +103,11 @@ def run(
 
 
 class Running:
-    """A run of a schedule on an instance, step by step; `rows` are the outputs read so far.
+    """A run of a schedule on an instance in `steps`; `rows` are the outputs read so far.
 
-    `first` are the inputs and tuned parameters with which the instance must be started. Raises
-    NotApplicable for a schedule with ramps that it interpolates, on an FMU that cannot.
+    `first` are the inputs and tuned parameters with which the instance must be started, `span` are
+    start and end (s) as arguments of `Instance.start`. Raises NotApplicable for a schedule with
+    ramps that it interpolates, on an FMU that cannot.
     """
 
     def __init__(
@@ -124,17 +125,9 @@ class Running:
         self._block = instance.block(self.outputs)
         self._names = (*INPUTS, *schedule.tuning)
         self.first = self.values_at(0)
-
-    @property
-    def steps(self) -> int:
-        """Number of communication steps."""
-        return len(self._times) - 1
-
-    @property
-    def span(self) -> dict[str, float]:
-        """Start and end (s) of the run as the FMU gets them, arguments of `Instance.start`."""
-        start = self._schedule.start_time
-        return {"stop_time": float(start + self._times[-1]), "start_time": start}
+        self.steps = len(self._times) - 1
+        start = schedule.start_time
+        self.span = {"stop_time": float(start + self._times[-1]), "start_time": start}
 
     def start(self, parameters: Mapping[str, float]) -> None:
         """Start the instance with parameters and `first`.

@@ -26,8 +26,6 @@ from slider_resonator.steady.shooting import (
 
 Result = TypeVar("Result", bound="SearchResult")
 
-UNDECIDED = ("neutral", "not_converged", "no_fixed_point", "not_unique")
-"""Statuses that a resonator without damping explains."""
 DEPARTURES = {
     "stable": "decay",
     "unstable": "grow: another motion is reached in practice",
@@ -314,7 +312,8 @@ def _result(
         answer |= {"multipliers": tuple(found.multipliers.tolist()), "stable": stable}
     else:
         status, reason = found.status, found.reason
-    if status in UNDECIDED and run.device.damping_ratio == 0.0:
+    undecided = ("neutral", "not_converged", "no_fixed_point", "not_unique")
+    if status in undecided and run.device.damping_ratio == 0.0:
         reason += " (damping_ratio = 0: the transient of the resonator never decays)"
     valid = run.values.get("prediction_valid")
     return kind(

@@ -27,10 +27,6 @@ if sys.platform != "win32":
     import resource
 
 
-WORK = "work"
-"""The folder that the FMU runs in."""
-
-
 def main() -> None:
     """Instantiate the FMU and run tasks until there are no more requests."""
     path, limit, folder = sys.argv[1], float(sys.argv[2]), Path(sys.argv[3])
@@ -50,8 +46,9 @@ def main() -> None:
     try:
         with ExitStack() as stack:
             fmu = stack.enter_context(open_fmu(path)) if path else None
-            (folder / WORK).mkdir()
-            os.chdir(folder / WORK)
+            work = folder / "work"
+            work.mkdir()
+            os.chdir(work)
             begin()
             instance = stack.enter_context(instantiate(fmu)) if fmu is not None else None
             faulthandler.cancel_dump_traceback_later()

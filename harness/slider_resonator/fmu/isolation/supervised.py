@@ -15,7 +15,6 @@ from slider_resonator.fmu.limits import MEMORY, max_bytes
 
 PACKAGE_PATH = str(Path(__file__).resolve().parents[3])
 """The folder that this package is imported from."""
-SUPERVISOR = Path(__file__).with_name("supervisor.py")
 MAX_ENDING = 90.0
 """Longest time (s) that ending a program may take; the supervisor gives up before."""
 
@@ -54,7 +53,8 @@ class Supervised:
             return
         self._control, theirs = socket.socketpair()
         with theirs:
-            supervisor = [sys.executable, "-I", "-S", str(SUPERVISOR), str(theirs.fileno())]
+            file = Path(__file__).with_name("supervisor.py")
+            supervisor = [sys.executable, "-I", "-S", str(file), str(theirs.fileno())]
             self.process = subprocess.Popen(
                 [*supervisor, str(max_bytes(MEMORY)), str(folder), *command],
                 env=environment,
