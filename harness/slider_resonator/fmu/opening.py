@@ -87,7 +87,8 @@ class Fmu:
         if name in self.variables:
             return self.variables[name]
         if name in VARIABLES:
-            raise self._lacks(name)
+            since = VARIABLES[name].since
+            raise NotApplicable(f"needs {name}, which came with interface {since}")
         raise FmuError(unknown_name("variable", name, self.variables))
 
     def reference(self, name: str) -> int:
@@ -95,23 +96,12 @@ class Fmu:
         return int(self.variable(name).valueReference)
 
     def settings(self, values: Mapping[str, float]) -> Mapping[str, float]:
-        """Return the values to set, without variables that the FMU lacks.
-
-        A variable that it lacks must have the value that the interface assumes without it; raises
-        NotApplicable for another one.
-        """
-        kept = {}
-        for name, value in values.items():
-            if name in self.variables or name not in VARIABLES:
-                kept[name] = value
-            elif value != VARIABLES[name].without:
-                raise self._lacks(name, value)
-        return kept
-
-    def _lacks(self, name: str, value: float | None = None) -> NotApplicable:
-        setting = "" if value is None else f" = {value:g}"
-        since = VARIABLES[name].since
-        return NotApplicable(f"needs {name}{setting}, which came with interface {since}")
+        """Return the values without those that the interface assumes of variables that it lacks."""
+        return {
+            name: value
+            for name, value in values.items()
+            if name in self.variables or name not in VARIABLES or value != VARIABLES[name].without
+        }
 
     def require(self, capability: str, *, of: bool = True) -> None:
         """Raise NotApplicable unless a capability flag of the description has the given value."""
@@ -162,8 +152,7 @@ def lacking(path: Path) -> tuple[str, ...]:
 
 def _read_description(path: Path) -> ModelDescription:
     if not path.is_file():
-        problem = "is a directory; must be an FMU file" if path.is_dir() else "no such file"
-        raise FmuError(f"{path}: {problem}")
+        raise FmuError(f"{path}: no such file")
     try:
         check_unpacked_size(path)
         with zipfile.ZipFile(path) as archive:

@@ -41,6 +41,12 @@ class Trajectory:
     evaluations: int
 
 
+_SIGNALS = (
+    *("position", "velocity", "resonator_displacement", "resonator_velocity"),
+    *("normal_force", "friction_force", "bristle_deflection"),
+)
+
+
 class Recorder:
     """Keeps samples at ``times`` (shape (n,), s, ascending) and counts while a run is followed.
 
@@ -101,16 +107,11 @@ class Recorder:
     def trajectory(self) -> Trajectory:
         """Return the trajectory of all samples."""
         signals = np.concatenate(self._signals)
+        named = dict(zip(_SIGNALS, signals.T[:-1], strict=True))
         return Trajectory(
             time=self.times,
-            position=signals[:, 0],
-            velocity=signals[:, 1],
-            resonator_displacement=signals[:, 2],
-            resonator_velocity=signals[:, 3],
-            normal_force=signals[:, 4],
-            friction_force=signals[:, 5],
-            bristle_deflection=signals[:, 6],
-            contact_mode=signals[:, 7].astype(np.int64),
+            **named,
+            contact_mode=signals[:, -1].astype(np.int64),
             event_times=np.array(self.event_times),
             reversal_times=np.array(self.reversal_times),
             modes=np.array(self.modes, dtype=np.int64),
