@@ -45,12 +45,9 @@ class Fmi3Slave:
         # What a step answers: an event that needs handling, an end, an early return, and the time.
         self._answers = c_bool(), c_bool(), c_bool(), c_double()
         self._answered: tuple[Any, ...] = tuple(byref(answer) for answer in self._answers)
-        slave.instantiate(loggingOn=True, logMessage=self._receive)
+        slave.instantiate(loggingOn=True, logMessage=lambda *log: keep(messages, log[-1]))
         self.component = slave.component
         self.dll = self  # where the functions of FMI 2.0 are found
-
-    def _receive(self, _: object, status: int, category: bytes, message: bytes) -> None:
-        keep(self._messages, message)
 
     def _call(self, name: str, *arguments: Any) -> int:
         """Call a function of FMI 3.0; raises FMICallException with its name."""

@@ -152,7 +152,8 @@ def lacking(path: Path) -> tuple[str, ...]:
 
 def _read_description(path: Path) -> ModelDescription:
     if not path.is_file():
-        raise FmuError(f"{path}: no such file")
+        problem = "is a directory; must be an FMU file" if path.is_dir() else "no such file"
+        raise FmuError(f"{path}: {problem}")
     try:
         check_unpacked_size(path)
         with zipfile.ZipFile(path) as archive:

@@ -173,29 +173,24 @@ class SearchResult(Shown):
         how = "read without a run"
         if self.prediction_valid is False:
             how += "; the FMU says that it does not hold here: prediction_valid = 0"
-        lines = [
-            f"{what:<17}{found}",
-            f"status           {self.status}: {one_line(self.reason)}",
-            f"FMU's output     {readable(self.predicted, 10)} {unit} ({how})",
-        ]
+        rows = {
+            what: found,
+            "status": f"{self.status}: {one_line(self.reason)}",
+            "FMU's output": f"{readable(self.predicted, 10)} {unit} ({how})",
+        }
         if self.common_period is not None:
-            lines.append(
-                f"cost             {number_of(self.periods, 'drive period')} in "
-                f"{number_of(self.iterations, 'iteration')}, "
-                f"a common period is {self.common_period} of them"
-            )
+            periods, count = number_of(self.periods, "drive period"), self.common_period
+            iterations = number_of(self.iterations, "iteration")
+            rows["cost"] = f"{periods} in {iterations}, a common period is {count} of them"
         if self.multipliers:
             sizes = ", ".join(f"{abs(multiplier):.6f}" for multiplier in self.multipliers)
-            lines.append(f"multipliers      {sizes} (magnitudes)")
-        held = (
+            rows["multipliers"] = f"{sizes} (magnitudes)"
+        rows["inputs"] = ", ".join(
             f"{name} {readable(value, 6)} {VARIABLES[name].unit}".removesuffix(" 1")
             for name, value in self.inputs.items()
         )
-        return [
-            *lines,
-            f"inputs           {', '.join(held)}",
-            f"friction         on {number_of(self.friction_faces, 'face')} (friction_faces)",
-        ]
+        rows["friction"] = f"on {number_of(self.friction_faces, 'face')} (friction_faces)"
+        return [f"{label:<17}{text}" for label, text in rows.items()]
 
 
 @dataclass(frozen=True, repr=False)

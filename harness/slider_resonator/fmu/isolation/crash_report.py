@@ -17,7 +17,6 @@ _CALLS: Mapping[str, str] = {
     "read": "fmi2GetReal",
     "write": "fmi2SetReal",
     "write_rates": "fmi2SetRealInputDerivatives",
-    "value": "fmi2GetReal or fmi2GetInteger",
     "start": "initialisation",
     "instantiate": "fmi2Instantiate",
     "end": "fmi2Terminate or fmi2FreeInstance",

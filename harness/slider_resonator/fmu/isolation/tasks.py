@@ -51,7 +51,9 @@ class LocalProcesses(AbstractContextManager["LocalProcesses"]):
         """End all processes, at once after an error."""
         try:
             if error is None:
-                self.close()
+                self._threads.shutdown()
+                while self._idle:
+                    self._idle.pop().close()
         finally:
             self.end()
 
@@ -81,12 +83,6 @@ class LocalProcesses(AbstractContextManager["LocalProcesses"]):
             return Outcome(error=error)
         self._idle.append(process)
         return Outcome(value)
-
-    def close(self) -> None:
-        """Free the FMU in each process and end it; FmuDied where that fails."""
-        self._threads.shutdown()
-        while self._idle:
-            self._idle.pop().close()
 
     def end(self) -> None:
         """End all processes, also in the middle of a task."""

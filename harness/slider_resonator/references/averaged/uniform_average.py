@@ -43,11 +43,9 @@ def mean_friction(
 ) -> float:
     """Return the friction averaged over a turn, in units of N0, at a slow velocity.
 
-    ``stiffness`` is sigma_0 > 0, ``frequency`` Omega. Scale free: SI values of velocities, sigma_0,
-    sigma_1 and the drive frequency give the same as dimensionless ones. ``ratio`` is that of the
-    frequency of the normal load to that of the drive; the phase is the case's. Where the load
-    never repeats (see `turns_until_repeat`) only its mean counts.
-    Raises ValueError for a stiffness that is not greater than 0.
+    ``stiffness`` is sigma_0 > 0, ``frequency`` Omega, both in the units of the case. ``ratio`` is
+    that of the frequency of the normal load to that of the drive. Where the load never repeats (see
+    `turns_until_repeat`) only its mean counts. Raises ValueError for another stiffness.
     """
     if not stiffness > 0.0:
         raise ValueError(f"stiffness = {stiffness!r} must be greater than 0")
