@@ -135,7 +135,7 @@ class FmuPeriodMap(PeriodicRun):
 class SearchResult(Shown):
     """Status, reason and cost of a search.
 
-    What is `searched` is a field; `settled` is the status where it is found and stable.
+    What is `searched` is a field, in `unit`; `settled` is the status where it is found and stable.
     `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
     `prediction_valid` what the FMU says of it, None where it has no such output. `inputs` are those
     that were held, in SI units, deviations only where not 0, with friction on `friction_faces`.
@@ -145,6 +145,7 @@ class SearchResult(Shown):
     """
 
     searched: ClassVar[str]
+    unit: ClassVar[str]
     settled: ClassVar[str]
     held: ClassVar[Sequence[str]] = tuple(INPUTS)
     status: str
@@ -168,15 +169,15 @@ class SearchResult(Shown):
 
     def describe(self) -> list[str]:
         """Return the answer, why it is one, and what it cost."""
-        what, unit = self.searched.replace("_", " "), VARIABLES[self.searched].unit
-        found = "none" if self.value is None else f"{readable(self.value, 10)} {unit}"
+        what = self.searched.replace("_", " ")
+        found = "none" if self.value is None else f"{readable(self.value, 10)} {self.unit}"
         how = "read without a run"
         if self.prediction_valid is False:
             how += "; the FMU says that it does not hold here: prediction_valid = 0"
         rows = {
             what: found,
             "status": f"{self.status}: {one_line(self.reason)}",
-            "FMU's output": f"{readable(self.predicted, 10)} {unit} ({how})",
+            "FMU's output": f"{readable(self.predicted, 10)} {self.unit} ({how})",
         }
         if self.common_period is not None:
             periods, count = number_of(self.periods, "drive period"), self.common_period
@@ -203,7 +204,7 @@ class SteadyMotion(SearchResult):
     no_common_period, no_fixed_point, not_unique or not_converged.
     """
 
-    searched, settled = "steady_velocity", "steady"
+    searched, unit, settled = "steady_velocity", "m/s", "steady"
     steady_velocity: float | None = None
     state: Mapping[str, float] = field(default_factory=dict)
 
@@ -260,7 +261,7 @@ class Blocking(SearchResult):
     no_fixed_point, not_unique or not_converged.
     """
 
-    searched, settled = "blocking_force", "blocked"
+    searched, unit, settled = "blocking_force", "N", "blocked"
     held = ("phase", "frequency_ratio")
     blocking_force: float | None = None
 
