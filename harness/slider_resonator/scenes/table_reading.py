@@ -126,7 +126,7 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
     if kind == "missing":
         return f"{key}: is missing" + (f"; add {name} = {example}" if example else "")
     wrong = _REQUIREMENTS.get(kind, re.sub(r"^\w+ should", "must", wrong))
-    wrong = wrong.replace(" after validation", "")
+    wrong = re.sub(r"(items?) after validation", r"valid \1", wrong)
     if location == ("expect",):
         wrong = "must be a list of tables, each headed [[expect]]"
     elif kind == "model_type" and example:

@@ -160,5 +160,11 @@ def run_all_tasks(
         if is_left_out(item):
             future.cancel()
             continue
-        yield item, processes.outcome(future)
+        try:
+            outcome = processes.outcome(future)
+        except FmuError as error:
+            if not has_opened:
+                raise
+            raise FmuError(f"{error}; another process has opened it: try --jobs 1") from error
+        yield item, outcome
         has_opened = True

@@ -9,8 +9,10 @@ from typing import Any
 
 import pytest
 
+from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.process import FmuDied, Outcome
+from slider_resonator.fmu.isolation import tasks
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Outcome
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks, run_tasks
 from tests.harness.fmu.isolation.tasks_of_tests import (
     abort,
@@ -71,6 +73,23 @@ def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
     assert str(last.error) == "given up after crashes or exceeded limits in a; not run: b, c"
     ((only, _),) = run_tasks(native_fmu, given[:1], 60.0, name=str)
     assert only == "a", "nothing is left to be given up"
+
+
+def test_an_fmu_that_opens_in_one_process_alone_is_reported_so(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[object] = []
+
+    def licensed(*arguments: Any) -> IsolatedFmu:
+        started.append(arguments)
+        if len(started) > 1:
+            raise FmuError("all licences are in use")
+        return IsolatedFmu(*arguments)
+
+    monkeypatch.setattr(tasks, "IsolatedFmu", licensed)
+    *_, (item, last) = run_tasks(native_fmu, [("a", own_process)] * 4, 60.0, name=str, jobs=2)
+    assert item is None
+    assert str(last.error).startswith("all licences are in use; another process has opened it")
 
 
 def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
