@@ -1,11 +1,12 @@
 """The experiments that an FMU carries (FMI-LS-REF): run them and compare with their results."""
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from operator import attrgetter
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -14,8 +15,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Comparison
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.validate import Judged, RunFailure, Validation, judge_points
-from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.units import finite_number
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -127,17 +126,20 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     }
     if "References" not in sources:
         raise SceneError(f"{where}: <References> is missing; must name a CSV file")
-    inputs = {}
-    if "Stimuli" in sources:  # values at communication points, held until the next
-        inputs = {
-            name: {"csv": str(sources["Stimuli"]), "column": name, "between": "hold"}
-            for name in _columns(sources["Stimuli"], (*INPUTS, *DEVIATIONS))
-        }
+    inputs, device = dict[str, Any](), dict[str, float]()
+    if stimuli := sources.get("Stimuli"):  # values at communication points, held until the next
+        held = {"csv": str(stimuli), "between": "hold"}
+        inputs = {column: {**held, "column": column} for column in csv_rows(stimuli)[0][1:]}
+    if parameters := sources.get("Parameters"):  # whatever the version of its namespace
+        for one in _root(parameters).iterfind(".//{*}Parameter"):
+            text = next((value.get("value") for value in one), None)
+            parameter = one.get("name", "")
+            device[parameter] = finite_number(f"{parameters.name}: {parameter}", text)
     scene = scene_from(
         {
             "name": name,
             "title": entry.get("description") or name,
-            "device": _parameters(sources["Parameters"]) if "Parameters" in sources else {},
+            "device": device,
             "inputs": inputs,
             "run": {
                 key: finite_number(f"{where}: {time}", run.get(time)) for key, time in times.items()
@@ -145,40 +147,26 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
         },
         where,
     )
-    signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
-    table = sources["References"]
-    columns = _columns(table, signals)
-    found = {one: csv_signal(table, one, "hold", QUANTITIES[one].unit) for one in columns}
-    results = {name: np.array(one.values) for name, one in found.items()}
     annotation = f"References/Annotations/Annotation[@type='{ALLOWED}']"
     text = entry.findtext(annotation, f"{USUAL_DEVIATION}")
     allowed = finite_number(f"{where}: {ALLOWED}", text)
     if not 0.0 < allowed < 1.0:
         raise SceneError(f"{where}: {ALLOWED} = {allowed:g}: must be a share between 0 and 1")
-    return OwnExperiment(scene, {}, np.array(found[columns[0]].times), results, allowed)
+    return OwnExperiment(scene, {}, *_results(sources["References"]), allowed)
 
 
-def _parameters(file: Path) -> dict[str, float]:
-    """Return the values of a parameter set (SSV), whatever the version of its namespace."""
-    found: dict[str, float] = {}
-    for entry in _root(file).findall(".//{*}Parameter"):
-        name = entry.get("name", "")
-        if name not in PARAMETERS:
-            raise SceneError(f"{file.name}: {unknown_name('parameter', name, PARAMETERS)}")
-        text = next((one.get("value") for one in entry), None)
-        found[name] = finite_number(f"{file.name}: {name}", text)
-    return found
-
-
-def _columns(file: Path, allowed: Collection[str]) -> list[str]:
-    """Return the names of the columns after the time, at least one."""
-    header, _ = csv_rows(file)
-    for name in header[1:]:
-        if name not in allowed:
-            raise SceneError(f"{file.name}: {unknown_name('column', name, allowed)}")
-    if not header[1:]:
-        raise SceneError(f"{file.name}: no column but time; must have one for each variable")
-    return header[1:]
+def _results(table: Path) -> tuple[Array, dict[str, Array]]:
+    """Return the times (s) of a table of results, and its columns by name, at least one."""
+    signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
+    times, results = np.zeros(0), dict[str, Array]()
+    for name in csv_rows(table)[0][1:]:
+        if name not in signals:
+            raise SceneError(f"{table.name}: {unknown_name('column', name, signals)}")
+        column = csv_signal(table, name, "hold", QUANTITIES[name].unit)
+        times, results[name] = np.array(column.times), np.array(column.values)
+    if not results:
+        raise SceneError(f"{table.name}: no column but time; must have one for each variable")
+    return times, results
 
 
 def _source(element: ET.Element, folder: Path, root: Path) -> Path:
