@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array, beyond_rounding, is_same
-from slider_resonator.checks.measures import Tube, no_tube, peak, share_of
+from slider_resonator.checks.measures import Tube, peak, share_of
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.device.interface import VARIABLES
@@ -139,7 +139,7 @@ def _difference_of_signals(
 ) -> dict[str, Any]:
     """Return the fields of a check of two signals; a value that is not finite fails."""
     quantity = QUANTITIES[comparison.quantity]
-    tube = expected if isinstance(expected, Tube) else no_tube(expected)
+    tube = expected if isinstance(expected, Tube) else Tube(expected, expected, expected)
     size = peak(tube.middle)
     rounded = tube.middle
     if not (size or floor or comparison.absolute) and comparison.quantity in VARIABLES:

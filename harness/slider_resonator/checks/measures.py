@@ -33,11 +33,6 @@ class Tube:
         return np.maximum(0.0, np.maximum(self.lower - signal, signal - self.upper))
 
 
-def no_tube(reference: Array) -> Tube:
-    """Return a tube of width 0 around a signal (n,)."""
-    return Tube(reference, reference, reference)
-
-
 def slow_displacement(times: Array, position: Array, period: float) -> Array:
     """Return the position averaged over the drive period (s) that ends at each time, shape (m,).
 

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
 from time import perf_counter
@@ -32,20 +32,18 @@ NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
 EXPERIMENTS_TYPE = "application/x-ma-hs-experiments"
 ALLOWED = "slider-resonator.deviation-of-peak"
 """Type of the annotation with the allowed deviation, as a share of the peak of each result."""
-USUAL_DEVIATION = 1e-4
-"""Allowed deviation of results without that annotation."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class OwnExperiment(ScenePoint):
     """An experiment of an FMU: `results` by output at `times` (s), shape (n,).
 
     They may deviate by `allowed`, a share of the peak of each.
     """
 
-    times: Array = field(default_factory=lambda: np.zeros(0))
-    results: Mapping[str, Array] = field(default_factory=dict)
-    allowed: float = USUAL_DEVIATION
+    times: Array
+    results: Mapping[str, Array]
+    allowed: float
 
 
 def own_experiments(fmu: Path) -> list[OwnExperiment]:
@@ -118,7 +116,7 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     where = f"{file.name}: experiment {name}"
     transient = getattr(entry.find("TransientSimulation"), "attrib", {})
     run = {"startTime": "0", **entry.attrib, **transient}
-    times = {"stop_time": "stopTime", "step_size": "stepSize", "start_time": "startTime"}
+    keys = {"stop_time": "stopTime", "step_size": "stepSize", "start_time": "startTime"}
     sources = {
         kind: _source(named, file.parent, root)
         for kind in ("Parameters", "Stimuli", "References")
@@ -142,17 +140,17 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
             "device": device,
             "inputs": inputs,
             "run": {
-                key: finite_number(f"{where}: {time}", run.get(time)) for key, time in times.items()
+                key: finite_number(f"{where}: {time}", run.get(time)) for key, time in keys.items()
             },
         },
         where,
     )
     annotation = f"References/Annotations/Annotation[@type='{ALLOWED}']"
-    text = entry.findtext(annotation, f"{USUAL_DEVIATION}")
-    allowed = finite_number(f"{where}: {ALLOWED}", text)
+    allowed = finite_number(f"{where}: {ALLOWED}", entry.findtext(annotation, "1e-4"))
     if not 0.0 < allowed < 1.0:
         raise SceneError(f"{where}: {ALLOWED} = {allowed:g}: must be a share between 0 and 1")
-    return OwnExperiment(scene, {}, *_results(sources["References"]), allowed)
+    times, results = _results(sources["References"])
+    return OwnExperiment(scene, times=times, results=results, allowed=allowed)
 
 
 def _results(table: Path) -> tuple[Array, dict[str, Array]]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.measures import Tube, no_tube, slow_displacement
+from slider_resonator.checks.measures import Tube, slow_displacement
 from slider_resonator.checks.period_means import COINCIDENCE, last_events, quadrature
 from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.drive_periods import DrivePeriods
@@ -174,7 +174,7 @@ class ReferenceSide:
         times = self.times
         coincide = _near(times, events, margin) & ~_near(times, changes, margin)
         if not coincide.any():
-            return no_tube(signal)
+            return Tube(signal, signal, signal)
         around = self.tube(name, COINCIDENCE)
         lower = np.where(coincide, around.lower, signal)
         upper = np.where(coincide, around.upper, signal)

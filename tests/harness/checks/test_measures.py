@@ -10,7 +10,6 @@ from slider_resonator.checks.compare import MAX_POINTS, Curves, curves_of, overv
 from slider_resonator.checks.measures import (
     Tube,
     dominant_frequency,
-    no_tube,
     ripple_amplitude,
     share_of,
     slow_displacement,
@@ -115,7 +114,8 @@ def test_natural_scales(quantity: str, device: Device, scale: float) -> None:
 def overview(count: int, *quantities: str, tube: bool = False) -> Curves:
     """Return the overview of signals over 1 s whose reference is twice what is found."""
     times = np.linspace(0.0, 1.0, count)
-    expected = no_tube(2.0 * times) if tube else 2.0 * times
+    twice = 2.0 * times
+    expected = Tube(twice, twice, twice) if tube else twice
     checks = [replace(SIGNAL, quantity=quantity) for quantity in quantities]
     curves = [curves_of(check, Measurement(times, times=times), expected) for check in checks]
     found = overview_of([one for one in curves if one is not None])
