@@ -138,16 +138,18 @@ def key(at: Mapping[str, float]) -> At:
 
 
 def write_recorded(folder: Path, recorded: Recorded) -> None:
-    """Write the files of a scene in place of earlier ones, that of the provenance last.
+    """Write the files of a scene in place of earlier ones.
 
-    Raises HarnessError when the folder cannot be written.
+    That of the provenance, without which a scene is not recorded, is removed first and written
+    last. Raises HarnessError when the folder cannot be written.
     """
     make_folder(folder)
+    with explained(f"{folder}: cannot be written: ", HarnessError):
+        (folder / PROVENANCE).unlink(missing_ok=True)
+        (folder / TRAJECTORY).unlink(missing_ok=True)
     for name, rows in _tables(recorded).items():
         if rows or name != TRAJECTORY:
             write_csv(folder / name, HEADERS[name], rows)
-        else:
-            (folder / name).unlink(missing_ok=True)
 
 
 def read_recorded(folder: Path) -> Recorded:

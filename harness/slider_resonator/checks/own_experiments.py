@@ -127,7 +127,10 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     inputs, device = dict[str, Any](), dict[str, float]()
     if stimuli := sources.get("Stimuli"):  # values at communication points, held until the next
         held = {"csv": str(stimuli), "between": "hold"}
-        inputs = {column: {**held, "column": column} for column in csv_rows(stimuli)[0][1:]}
+        columns = (csv_rows(stimuli) or [[]])[0][1:]
+        if not columns:
+            raise SceneError(f"{stimuli.name}: no column but time; must have one for each variable")
+        inputs = {column: {**held, "column": column} for column in columns}
     if parameters := sources.get("Parameters"):  # whatever the version of its namespace
         for one in _root(parameters).iterfind(".//{*}Parameter"):
             text = next((value.get("value") for value in one), None)

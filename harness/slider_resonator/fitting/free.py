@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -88,7 +88,7 @@ def _free(name: str, parameters: Mapping[str, float], bounds: Any) -> Free:
                 f"bounds of {name} = {bounds!r}: must be two numbers in {variable.unit}, or texts "
                 "with a unit"
             ) from error
-        if not least <= low < high <= most:
+        if not (least <= low < high <= most and isfinite(high - low)):
             raise HarnessError(
                 f"bounds of {name} = {low:g} to {high:g}: must be ascending, each "
                 f"{variable.requirement}"

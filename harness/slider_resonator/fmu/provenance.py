@@ -133,7 +133,8 @@ def _tables(provenance: Provenance) -> list[Table]:
     ]
     names = ("date", "harness", "fmpy", "python", "platform", "cpu")
     tools = [getattr(provenance, name) for name in names]
-    return [
-        Table(texts("FMU", "GUID", "version", "generation tool", "SHA-256"), fmus),
-        Table(texts("date", "harness", "fmpy", "Python", "platform", "CPU"), [tools]),
-    ]
+    tables = [Table(texts("date", "harness", "fmpy", "Python", "platform", "CPU"), [tools])]
+    if fmus:
+        heads = texts("FMU", "GUID", "version", "generation tool", "SHA-256")
+        tables.insert(0, Table(heads, fmus))
+    return tables

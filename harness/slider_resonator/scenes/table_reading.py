@@ -142,7 +142,8 @@ def _key_path(location: tuple[int | str, ...], content: Mapping[str, Any]) -> st
     parts = [f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in location]
     if len(location) > 1 and location[0] == "expect" and isinstance(location[1], int):
         expect = with_bundles(content)["expect"][location[1]]
-        known = [str(expect[key]) for key in ("quantity", "reference") if key in expect]
+        names = ("quantity", "reference") if isinstance(expect, Mapping) else ()
+        known = [str(expect[key]) for key in names if key in expect]
         parts[1] = f"[{', '.join(known)}]" if known else parts[1]
     return "".join(parts).lstrip(".")
 

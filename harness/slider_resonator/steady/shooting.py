@@ -141,7 +141,7 @@ def solve(
         value = scaled(y)
         if residual() <= tolerance:
             break
-    if residual() <= 1e-9:
+    if residual() <= 1e-9:  # of the scale: a singular map with zeros has a family of them
         raise NoPeriodicMotion("not_unique", A_FAMILY, iterations, residual())
     drifts = f"the state drifts by {residual():.3g} of its scale in every period: no motion repeats"
     raise NoPeriodicMotion("no_fixed_point", drifts, iterations, residual())
@@ -214,7 +214,7 @@ def fixed_point(
         error = max(NEUTRAL, tolerance / DISTANCE)
         if min(abs(side - 1.0) for side in sides) <= error:
             raise NoPeriodicMotion("not_unique", A_FAMILY, iterations, residual)
-        if abs(sides[0] - sides[1]) > 0.1 * abs(1.0 - multipliers[0]):  # a kink
+        if abs(sides[0] - sides[1]) > 0.1 * abs(1.0 - multipliers[0]):  # a kink: the larger counts
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(state)
     return FixedPoint(state, displacement, iterations, residual, multipliers)

@@ -107,6 +107,7 @@ def has_reference(case: Case) -> bool:
     decay = device.damping_ratio * device.resonator_frequency / slider
     max_periods = 2000.0 if case.model.leaps else 600.0  # leaps are in long steps
     undamped = device.fidelity == 1 and device.damping_ratio < 1e-9
+    # Faster decay, smaller steps (s) and more changes of inputs take a reference minutes.
     is_soft = decay <= 30.0 * device.drive_frequency and smallest >= 1e-9
     is_short = case.duration * fastest <= math.tau * max_periods and len(case.holds) <= 400
     return is_soft and is_short and not undamped

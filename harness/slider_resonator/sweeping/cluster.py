@@ -115,6 +115,8 @@ def dask_processes(
                     with suppress(OSError):
                         client.unregister_worker_plugin(plugin.name)  # type: ignore[no-untyped-call]
         except OSError as error:  # also that of a closed connection and of a timeout
+            if client.status == "running":
+                raise
             raise HarnessError(
                 f"--dask {address}: the scheduler is lost; the same command continues the sweep"
             ) from error

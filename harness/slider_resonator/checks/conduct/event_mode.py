@@ -1,7 +1,7 @@
 """Event mode of FMI 3.0: steps that end at events, what they answer, and the time in between."""
 
 from collections.abc import Iterator
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, ExitStack
 from ctypes import c_double, c_uint
 from math import tau
 
@@ -43,10 +43,16 @@ class _EventRun(AbstractContextManager["_EventRun"]):
         self.slave.instantiate(
             eventModeUsed=events, earlyReturnAllowed=early, logMessage=lambda *_: None
         )
-        self.slave.enterInitializationMode(startTime=0.0, stopTime=STEPS * STEP)
-        for name, value in DEVICE.items():
-            self.slave.setFloat64([fmu.reference(name)], [value])
-        self.slave.exitInitializationMode()
+
+    def __enter__(self) -> "_EventRun":
+        with ExitStack() as on_error:
+            on_error.callback(self.slave.freeInstance)
+            self.slave.enterInitializationMode(startTime=0.0, stopTime=STEPS * STEP)
+            for name, value in DEVICE.items():
+                self.slave.setFloat64([self.fmu.reference(name)], [value])
+            self.slave.exitInitializationMode()
+            on_error.pop_all()
+        return self
 
     def __exit__(self, *_: object) -> None:
         self.slave.freeInstance()

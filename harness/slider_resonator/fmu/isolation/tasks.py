@@ -3,7 +3,7 @@
 import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import AbstractContextManager
 from pathlib import Path
 from threading import Event
@@ -147,24 +147,27 @@ def run_all_tasks(
     shows it; from then on there are `QUEUED` tasks for each process.
     """
     waiting = tasks if isinstance(tasks, deque) else deque(tasks)
-    submitted: deque[tuple[Item, Future[Outcome]]] = deque()
-    has_opened = False
+    submitted: deque[tuple[Item, Task, Future[Outcome]]] = deque()
+    count, has_opened = processes.count, False
     while True:
-        while waiting and len(submitted) < (QUEUED * processes.count if has_opened else 1):
+        while waiting and len(submitted) < (QUEUED * count if has_opened else 1):
             item, task = waiting.popleft()
             if not is_left_out(item):
-                submitted.append((item, processes.submit(task)))
+                submitted.append((item, task, processes.submit(task)))
         if not submitted:
             return
-        item, future = submitted.popleft()
+        item, task, future = submitted.popleft()
         if is_left_out(item):
             future.cancel()
             continue
         try:
             outcome = processes.outcome(future)
-        except FmuError as error:
+        except FmuError:
             if not has_opened:
                 raise
-            raise FmuError(f"{error}; another process has opened it: try --jobs 1") from error
+            # It may open in fewer processes only, as with one licence.
+            count = 1
+            wait(other for _, _, other in submitted)
+            outcome = processes.outcome(processes.submit(task))
         yield item, outcome
         has_opened = True

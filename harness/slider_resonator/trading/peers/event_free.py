@@ -43,8 +43,8 @@ def simulate(
     Coulomb friction is sgn, or with a ``width`` (m/s) tanh(velocity / width); LuGre friction is
     that of its bristle. ``method`` is a solver of scipy, ``atol`` in fractions of characteristic
     sizes of the states. ``contact_mode`` is the sign of the velocity (2 where the contact is open),
-    ``reversals`` counts its changes between steps, chatter included; there are no sticks and no
-    event times. Raises ValueError for times outside the inputs, RuntimeError where a step
+    ``reversal_times`` has NaN for each of its changes between steps, chatter too; there are no
+    sticks and no event times. Raises ValueError for times outside the inputs, RuntimeError where a step
     fails or the right hand side is evaluated more than ``max_evaluations`` times.
     """
 
@@ -159,7 +159,7 @@ def moreau_jean(
     Takes the inputs that ``resolved.simulate`` takes. A step is at most a
     ``steps_per_period``-th of a drive period; those of held inputs are equal, and samples between
     their ends are interpolated linearly. ``contact_mode`` is the sign of the velocity (0 in a
-    stick, 2 where the contact is open), ``reversals`` counts its changes between steps,
+    stick, 2 where the contact is open), ``reversal_times`` has NaN for each of its changes,
     ``friction_force`` is NaN and ``event_times`` empty. Raises ValueError as the other does.
     """
     follow = partial(_step_through, steps_per_period=steps_per_period)
