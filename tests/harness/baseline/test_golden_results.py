@@ -39,6 +39,21 @@ def point() -> ScenePoint:
     return ScenePoint(find_scene("table_1"))
 
 
+def test_a_scene_that_is_written_in_part_is_not_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_recorded(tmp_path / "mine", RECORDED)
+    assert recorded_scenes(tmp_path) == [tmp_path / "mine"]
+
+    def full(path: Path, *_: Any) -> None:
+        raise HarnessError(f"{path}: no space left")
+
+    monkeypatch.setattr("slider_resonator.baseline.golden.write_csv", full)
+    with pytest.raises(HarnessError, match="no space left"):
+        write_recorded(tmp_path / "mine", RECORDED)
+    assert recorded_scenes(tmp_path) == []
+
+
 def judged(point: ScenePoint, name: str, *values: Any) -> Check:
     """Compare a golden value of a quantity with the one that is measured now."""
     golden, now = (

@@ -1,5 +1,6 @@
 """Fits of measurements that the FMU itself has made, with and without noise."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -231,6 +232,11 @@ def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
         (["slider_mass", "slider_mass"], {}, "must be different parameters"),
         ([], {}, "must be one parameter or more"),
         (["slider_mass"], {"slider_mass": (2.0, 1.0)}, "must be ascending"),
+        (
+            ["slider_mass"],
+            {"slider_mass": (0.1, math.inf)},
+            "must be ascending, each a finite number",
+        ),
         (["slider_mass"], {"damping_ratio": (0.1, 1.0)}, "bounds of damping_ratio: it is not free"),
         (["slider_mass"], {"slider_mass": 0.1}, "bounds of slider_mass = 0.1: must be two"),
         (["slider_mass"], {"slider_mass": ("1 g", "1 m")}, "in kg, or texts"),

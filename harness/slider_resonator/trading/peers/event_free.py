@@ -44,8 +44,8 @@ def simulate(
     that of its bristle. ``method`` is a solver of scipy, ``atol`` in fractions of characteristic
     sizes of the states. ``contact_mode`` is the sign of the velocity (2 where the contact is open),
     ``reversal_times`` has NaN for each of its changes between steps, chatter too; there are no
-    sticks and no event times. Raises ValueError for times outside the inputs, RuntimeError where a step
-    fails or the right hand side is evaluated more than ``max_evaluations`` times.
+    sticks and no event times. Raises ValueError for times outside the inputs, RuntimeError where a
+    step fails or the right hand side is evaluated more than ``max_evaluations`` times.
     """
 
     def integrate(run: RunWithoutEvents, inputs: HeldInputs) -> None:
