@@ -17,7 +17,10 @@ _TEXT = re.compile(
 """A number with a unit: what the library evaluates is no more than that."""
 SHOWN = {"rad/s": "Hz", "rad": "deg"}
 """For an SI unit, the one in which engineers state such a value."""
-_EXAMPLES = {"rad/s": "20 kHz", "rad": "30 deg", "1": "2 %"}
+_EXAMPLES = {
+    **{"rad/s": "20 kHz", "rad": "30 deg", "1": "2 %", "kg": "5 g"},
+    **{"m": "1 um", "m/s": "3 mm/s", "s": "5 ms", "N": "200 mN"},
+}
 
 
 @cache
@@ -57,8 +60,10 @@ def si_number(name: str, text: str, unit: str) -> float:
         match = _TEXT.fullmatch(text)
     number = "number" if unit == "1" else f"number in {unit}"
     must = f"must be a {number}, or a text with a unit such as {_EXAMPLES.get(unit, f'5 {unit}')!r}"
-    if match is None or match["unit"] == "gr":  # to the library grains, not grams
+    if match is None:
         raise ValueError(f"{name} = {text!r}: {must}")
+    if match["unit"] == "gr":  # to the library grains, not grams
+        raise ValueError(f"{name} = {text!r}: unknown unit 'gr'; {must}")
     import pint
 
     try:

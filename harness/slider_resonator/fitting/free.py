@@ -62,8 +62,9 @@ def free_parameters(
     """
     for name in [*names, *bounds]:
         if name not in PARAMETERS or name in INTEGERS:
-            possible = {*PARAMETERS} - {*INTEGERS}
-            raise HarnessError(unknown_name("continuous parameter", name, possible))
+            if name in VARIABLES:
+                raise HarnessError(f"{name} cannot be free; must be a parameter that is no integer")
+            raise HarnessError(unknown_name("parameter", name, {*PARAMETERS} - {*INTEGERS}))
         if name not in names:
             raise HarnessError(f"bounds of {name}: it is not free; must be one of the free ones")
     if not names:

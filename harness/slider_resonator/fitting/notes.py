@@ -54,8 +54,8 @@ def miss_notes(measurements: Measurements, predicted: Array) -> list[str]:
     sizes = dict(measurements.root_mean_squares(measured))
     shares = measurements.root_mean_squares((predicted - measured) / measurements.sizes)
     return [
-        f"the fit misses {share:.0%} of {name}, {shown(name, sizes[name])} (rms): check units and "
-        "signs, and what is held"
+        f"the fit misses {share:.0%} of {name}, which is {shown(name, sizes[name])} (rms): check "
+        "units and signs, and what is held"
         for name, share in shares
         if share >= MISSED
     ]

@@ -48,7 +48,6 @@ def _draw(axes: Sequence[Axes], points: Sequence[Point], numbers: Array) -> None
         x = Drawn("number of the measurement", "1", np.arange(1.0, len(points) + 1.0))
     factor, unit = plot_unit(VARIABLES[name].unit, *numbers[:2])
     measured, predicted = factor * numbers[:2]
-    mark = "+-" if first and not is_run else "+"  # between samples a run may swing
     has_names = 1 < len(curves) <= MAX_CURVES
     data, fit, labels = COLOURS["theory"], COLOURS["slow"], ("measured", "fit")
     below.axhline(0.0, color="0.6", lw=0.8)
@@ -57,13 +56,13 @@ def _draw(axes: Sequence[Axes], points: Sequence[Point], numbers: Array) -> None
         if has_names:
             data, fit, labels = f"C{number}", f"C{number}", (curve, "")
         above.plot(x.values[rows], measured[rows], "o", ms=4, color=data, label=labels[0])
-        above.plot(x.values[rows], predicted[rows], mark, color=fit, label=labels[1])
+        above.plot(x.values[rows], predicted[rows], "+", color=fit, label=labels[1])
         below.plot(x.values[rows], numbers[2][rows], "o", ms=3, color=fit)
         labels = ("", "")
     source = f" ({Path(points[0].source).name})" if is_run else ""
     above.set_title(f"{name.replace('_', ' ')} [{unit}]{source}")
     if has_names:
-        above.legend(title="points measured, lines fit", loc="upper left", bbox_to_anchor=(1, 1))
+        above.legend(title="dots measured, crosses fit", loc="upper left", bbox_to_anchor=(1, 1))
     elif not above.figure.legends:
         shown = above.get_legend_handles_labels()
         above.figure.legend(*shown, loc="outside upper right", ncols=2)

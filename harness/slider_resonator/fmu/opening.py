@@ -176,13 +176,13 @@ def _read_description(path: Path) -> ModelDescription:
     except HarnessError:
         raise
     except Exception as error:  # fmpy, lxml and the schema each raise their own
-        raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
+        raise FmuError(f"{path}: not an FMU: cannot read modelDescription.xml: {error}") from error
 
 
 def check_unpacked_size(path: Path) -> None:
     """Raise FmuError for a file that is no zip archive, or that unpacks to more than the limits."""
     if not zipfile.is_zipfile(path):
-        raise FmuError(f"{path}: must be a zip archive")
+        raise FmuError(f"{path}: not an FMU: it is no zip archive")
     with zipfile.ZipFile(path) as archive:
         entries = archive.infolist()
     size = sum(entry.file_size for entry in entries)

@@ -87,8 +87,8 @@ def csv_signal(path: Path, column: str, between: str, unit: str) -> Signal:
     column = split_heading(column)[0]
     name = column if column in names else "value"
     if (count := names.count(name)) != 1:
-        among = f"columns {column!r} or 'value' among {header[1:]}"
-        raise ValueError(f"csv {path}: {count} {among}; must be one")
+        wanted = f"{count or 'no'} columns {column!r} or 'value'"
+        raise ValueError(f"csv {path}: {wanted} among {', '.join(header[1:])}; must be one")
     index = names.index(name)
     with explained(f"csv {path}: heading ", ValueError):
         factors = heading_factor(header[0], "s"), heading_factor(header[index], unit)

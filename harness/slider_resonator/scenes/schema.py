@@ -293,7 +293,7 @@ class SceneTable(KeyTable):
         "Only `name` and `title` are needed. Any key that is not listed is refused.",
         'Numbers are in SI units. A text may have another unit: "20 kHz", "30 deg", "5 ms".',
         "A file with [[variant]] tables is several scenes: each has what the file says, and on top "
-        "of it what its variant says, key by key. A variant needs a name and a title of its own.",
+        "of it what its variant says, key by key. A variant needs a name of its own.",
         "An [[expect]] replaces that of a bundle, and that of a variant one of the file, with the "
         "same quantity and reference. What it leaves out is that of the one that it replaces.",
     )

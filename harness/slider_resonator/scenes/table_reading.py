@@ -123,6 +123,9 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
         return f"{key}: {unknown_name('key', str(name), map(str, fields))}"
     field = fields.get(name)
     example = toml_value(field.examples[0]) if field and field.examples else ""
+    for over_time in {"steps", "ramp"} & {*location[:-1]}:
+        pair = location[: location.index(over_time) + 2]
+        return f"{_key_path(pair, content)}: must be a pair [time (s), value]"
     if kind == "missing":
         return f"{key}: is missing" + (f"; add {name} = {example}" if example else "")
     wrong = _REQUIREMENTS.get(kind, re.sub(r"^\w+ should", "must", wrong))
