@@ -229,8 +229,7 @@ class Probe:
         step = candidate.step or self.duration
         most = TIMED_STEPS * step if self._together(step) > 1 else inf
         stop = min(stop, self.duration, most)
-        record, _ = self._run(candidate, min(step, stop), stop)
-        return record.start_cpu + record.step_cpu * self.duration / stop
+        return self._run(candidate, min(step, stop), stop)[1] * self.duration / stop
 
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
         schedule = self.scene.timed(stop_time=stop, step_size=step).schedule()

@@ -17,10 +17,7 @@ _TEXT = re.compile(
 """A number with a unit: what the library evaluates is no more than that."""
 SHOWN = {"rad/s": "Hz", "rad": "deg"}
 """For an SI unit, the one in which engineers state such a value."""
-_EXAMPLES = {
-    **{"rad/s": "20 kHz", "rad": "30 deg", "1": "2 %", "kg": "5 g"},
-    **{"m": "1 um", "m/s": "3 mm/s", "s": "5 ms", "N": "200 mN"},
-}
+_EXAMPLES = {"rad/s": "20 kHz", "rad": "30 deg", "1": "2 %", "kg": "5 g", "m": "1 um", "N": "1 mN"}
 
 
 @cache

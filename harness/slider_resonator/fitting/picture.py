@@ -51,8 +51,7 @@ def _draw(axes: Sequence[Axes], points: Sequence[Point], numbers: Array) -> None
     has_names = 1 < len(curves) <= MAX_CURVES
     data, fit, labels = COLOURS["theory"], COLOURS["slow"], ("measured", "fit")
     below.axhline(0.0, color="0.6", lw=0.8)
-    for number, (curve, indices) in enumerate(curves.items()):
-        rows = np.array(indices)[np.argsort(x.values[indices], kind="stable")]
+    for number, (curve, rows) in enumerate(curves.items()):
         if has_names:
             data, fit, labels = f"C{number}", f"C{number}", (curve, "")
         above.plot(x.values[rows], measured[rows], "o", ms=4, color=data, label=labels[0])

@@ -182,7 +182,7 @@ def _read_description(path: Path) -> ModelDescription:
 def check_unpacked_size(path: Path) -> None:
     """Raise FmuError for a file that is no zip archive, or that unpacks to more than the limits."""
     if not zipfile.is_zipfile(path):
-        raise FmuError(f"{path}: not an FMU: it is no zip archive")
+        raise FmuError(f"{path}: must be a zip archive, as FMUs and SSP packages are")
     with zipfile.ZipFile(path) as archive:
         entries = archive.infolist()
     size = sum(entry.file_size for entry in entries)

@@ -49,7 +49,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("old", "new", "cause"),
-    [(b'guid="', b'guid="0', "GUID"), (b"</ModelStructure>", b"", "cannot be read")],
+    [(b'guid="', b'guid="0', "GUID"), (b"</ModelStructure>", b"", "cannot read")],
 )
 def test_run_failures_are_in_all_reports(
     native_fmu: Path, tmp_path: Path, old: bytes, new: bytes, cause: str

@@ -30,11 +30,15 @@ from slider_resonator.fmu.opening import Fmu
         ("fidelity", 2.0**32 + 2, "must be an integer from 0 to"),
         ("tolerance", 0.1, "tolerance = 0.1: must be a finite number from 1e-14 to 0.01"),
         ("drive_frequency", "20 khz", "unknown unit 'khz'"),
-        ("slider_mass", "50 gr", "slider_mass = '50 gr': must be a number in kg, or"),
+        (
+            "slider_mass",
+            "50 gr",
+            "slider_mass = '50 gr': unknown unit 'gr'; must be a number in kg, or",
+        ),
         ("load", "9**9**9 N", "load = '9**9**9 N': must be a number in N, or a text with a unit"),
-        ("load", "", "load = '': must be a number in N, or a text with a unit such as '5 N'"),
+        ("load", "", "load = '': must be a number in N, or a text with a unit such as '1 mN'"),
         ("load", "1 N^2", "load = '1 N^2': not in N"),
-        ("load", "__import__('os')", "such as '5 N'"),
+        ("load", "__import__('os')", "such as '1 mN'"),
     ],
 )
 def test_invalid_value_is_refused_by_name(name: str, value: Any, said: str) -> None:

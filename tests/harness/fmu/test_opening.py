@@ -39,7 +39,7 @@ def refusal(path: Path) -> str:
     ("files", "said"),
     [
         ({"readme.txt": "hello"}, "no item named 'modelDescription.xml'"),
-        ({XML: "<fmiModelDescription"}, "cannot be read"),
+        ({XML: "<fmiModelDescription"}, "cannot read"),
         ({XML: '<fmiModelDescription fmiVersion="1.0"/>'}, "FMI version 1.0; must be 2.0 or 3.0"),
         ({XML: '<fmiModelDescription fmiVersion="3.1"/>'}, "FMI version 3.1; must be 2.0 or 3.0"),
         ({"a": "", "b": "", "c": ""}, "3 files; must be at most 2"),
