@@ -59,7 +59,7 @@ def generated_scene(seed: int) -> Scene:
         content["run"] = {"stop_time": duration, "steps_per_period": per_period}
     ramps = any(isinstance(given, dict) and "ramp" in given for given in inputs.values())
     fast = equivalent_force(Device.from_mapping(device)).velocity_amplitude
-    need = _needs(rng, inputs, steady, 1e-4 if ramps else 1e-5, fast)
+    need = _needs(rng, inputs, 0.0 if steady else periods, 1e-4 if ramps else 1e-5, fast)
     if law == 1 and rng.uniform() < 0.5:
         need["friction_law"] = "free"
     name = f"scene_{seed}"
@@ -131,13 +131,14 @@ def _inputs(rng: Rng, device: Device, duration: float, steady: bool) -> dict[str
 
 
 def _needs(
-    rng: Rng, inputs: dict[str, Any], steady: bool, tightest: float, fast: float
+    rng: Rng, inputs: dict[str, Any], periods: float, tightest: float, fast: float
 ) -> dict[str, Any]:
     ratio = inputs.get("frequency_ratio", 1.0)
-    beats = isinstance(ratio, float) and 0.0 < abs(ratio - 1.0) < 0.1
+    # The later half of a run shows a beat by two of them.
+    beats = isinstance(ratio, float) and 4.0 < periods * abs(ratio - 1.0) < 0.1 * periods
     names = ["mean_velocity"] * 4 + ["position"] * 2 + ["velocity", "event_times"]
     names += ["beat"] * 3 * beats
-    if steady:
+    if not periods:
         names = ["steady_velocity", "blocking_force"]
     chosen = {names[int(rng.integers(len(names)))] for _ in range(ceil(rng.uniform(0, 1.5)))}
     needs: dict[str, Any] = {}
