@@ -127,10 +127,7 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     inputs, device = dict[str, Any](), dict[str, float]()
     if stimuli := sources.get("Stimuli"):  # values at communication points, held until the next
         held = {"csv": str(stimuli), "between": "hold"}
-        columns = (csv_rows(stimuli) or [[]])[0][1:]
-        if not columns:
-            raise SceneError(f"{stimuli.name}: no column but time; must have one for each variable")
-        inputs = {column: {**held, "column": column} for column in columns}
+        inputs = {column: {**held, "column": column} for column in _columns(stimuli)}
     if parameters := sources.get("Parameters"):  # whatever the version of its namespace
         for one in _root(parameters).iterfind(".//{*}Parameter"):
             text = next((value.get("value") for value in one), None)
@@ -156,17 +153,23 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     return OwnExperiment(scene, times=times, results=results, allowed=allowed)
 
 
+def _columns(table: Path) -> list[str]:
+    """Return the names of the columns of a table, at least one, without that of the time."""
+    names = csv_rows(table)[0][1:]
+    if not names:
+        raise SceneError(f"{table.name}: no column but time; must have one for each variable")
+    return names
+
+
 def _results(table: Path) -> tuple[Array, dict[str, Array]]:
-    """Return the times (s) of a table of results, and its columns by name, at least one."""
+    """Return the times (s) of a table of results, and its columns by name."""
     signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
     times, results = np.zeros(0), dict[str, Array]()
-    for name in csv_rows(table)[0][1:]:
+    for name in _columns(table):
         if name not in signals:
             raise SceneError(f"{table.name}: {unknown_name('column', name, signals)}")
         column = csv_signal(table, name, "hold", QUANTITIES[name].unit)
         times, results[name] = np.array(column.times), np.array(column.values)
-    if not results:
-        raise SceneError(f"{table.name}: no column but time; must have one for each variable")
     return times, results
 
 

@@ -76,5 +76,6 @@ class Variable:
         low = -LARGEST if self.minimum is None else self.minimum
         high = LARGEST if self.maximum is None else self.maximum
         if not low <= number <= high or (kind is int and number % 1 != 0):
-            raise ValueError(f"{self.name} = {number!r}: must be {self.requirement}")
+            shown = repr(number).removesuffix(".0" if kind is int else "")
+            raise ValueError(f"{self.name} = {shown}: must be {self.requirement}")
         return kind(number)

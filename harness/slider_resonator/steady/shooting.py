@@ -117,7 +117,7 @@ def solve(
         size = float(np.linalg.norm(correction))
         if size <= tolerance:
             return y * scale, iterations, residual()
-        if iterations == 60:
+        if iterations == 60:  # far more than a simple zero takes
             raise unconverged("out of iterations")
         iterations += 1
         for damping in 0.5 ** np.arange(9):
@@ -134,7 +134,7 @@ def solve(
                 raise unconverged("no step brings it closer")
             if not is_kept:
                 break
-        is_kept = contraction <= 0.05
+        is_kept = contraction <= 0.05  # a new Jacobian would save less than it costs
     determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
     for _ in range(4):  # a family of zeros may be curved
         y = y - determined @ value

@@ -44,7 +44,7 @@ class Rejection:
 
 @dataclass(frozen=True)
 class Tried:
-    """The rejection of an FMU, if any, and the first result that is `worse` than the original's."""
+    """The rejection of an FMU, or without one the first result `worse` than the original's."""
 
     rejection: Rejection | None
     worse: str = ""
@@ -66,9 +66,10 @@ def trial(
             rejection = not_run(point, outcome)
             if rejection is None and point is not None:
                 rejection = first_failure(point, outcome.value)
-                worse = worse or worse_result(point, outcome.value)
             if rejection is not None:
-                return Tried(rejection, worse)
+                return Tried(rejection)
+            if point is not None and not worse:
+                worse = worse_result(point, outcome.value)
     return Tried(None, worse)
 
 

@@ -49,8 +49,8 @@ def print_validation(
     if rows:
         show_table(console, _table(rows, details))
     if any(_of_peak(check) for check, _ in rows):
-        shares = "the peak of a signal; off by and allowed are shares of it"
-        console.print(words(f"{SIGNAL} {shares}; all others are in their unit", console.width))
+        peaks = "relative to the peak of a signal; all others are in their unit"
+        console.print(words(f"{SIGNAL} off by and allowed are {peaks}", console.width))
     for check, _ in rows:
         if not check.passed:
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"

@@ -39,19 +39,18 @@ def crash_report(
     if _FRAME_3.search(trace):
         call = in_fmi_3(call)
     where = f" in {call}" if call else ""
-    over_limit = True
+    # While it writes the traceback of a thread that goes on it may crash.
+    is_late = ending.code is None or (ending.code != 0 and "Timeout (" in trace)
     if ending.excess:
         report = f"{fmu} was ended: it had {ending.excess}"
-    elif ending.code is None or (ending.code != 0 and "Timeout (" in trace):
-        # While it writes the traceback of a thread that goes on it may crash.
+    elif is_late:
         report = f"no answer within the time limit of {limit:g} s{where}: {fmu} was ended"
     else:
-        over_limit = False
         end = f"exit code {ending.code}"
-        if ending.code < 0:
+        if ending.code is not None and ending.code < 0:
             end = f"signal {-ending.code}"
             with suppress(ValueError):
                 end = signal.Signals(-ending.code).name
         report = f"{fmu} crashed{where}: its process ended with {end}"
     own = " ".join(printed.split())[-MAX_PRINTED:]
-    return (f"{report}; it printed: {own}" if own else report), over_limit
+    return (f"{report}; it printed: {own}" if own else report), is_late or bool(ending.excess)

@@ -26,10 +26,8 @@ TRACEBACK = "traceback.txt"
 TIME_LIMIT = 120.0
 """Default time limit of a task, s; the slowest built-in scene takes a few."""
 GRACE = 60.0
-"""Seconds beyond the time limit after which a process that did not end itself is killed.
-
-Before the limit begins, Python and the modules of a task are loaded, also on a busy machine.
-"""
+"""Seconds beyond the time limit after which a process that did not end itself is killed: before the
+limit begins, a busy machine has to load Python and the modules of a task."""
 POLL_INTERVAL = 0.5
 """Interval (s) at which the process is polled."""
 
